@@ -1,14 +1,10 @@
-// The C interface (include/calligraphy/c/calligraphy.h) for JavaScript, without the prefix calligraphy_:
-//
-//   const library = await load();
-//   const page = library.page_lay_out(library.set_built_in(), "永", null, null);
-//   const profile = library.struct("capabilities");
-//   library.device_profile("touch", profile);
-//   const renderer = library.renderer_create(page, null, profile, null);
+// The C interface (include/calligraphy/c/calligraphy.h) for JavaScript, without the prefix calligraphy_; docs/c.md has
+// an example.
 //
 // A function throws a CalligraphyError unless its status is OK. If its last parameter is where it writes a handle, a
-// number or a text, it takes no argument for it, and returns that value. Arguments are numbers, handles, strings,
-// structs, null, arrays, which are passed as doubles, and typed arrays, to which the function may write.
+// number or a text, it takes no argument for it, and returns that value. Arguments are checked against the header:
+// numbers, handles, strings, structs, and arrays, of which those that are written must be typed arrays; null where the
+// header permits a null pointer.
 import createModule from "./calligraphy.mjs";
 import { constants, functions, structs } from "./calligraphy_layout.mjs";
 
@@ -22,31 +18,43 @@ export class CalligraphyError extends Error {
    */
   constructor(message, status) {
     super(message);
+    this.name = "CalligraphyError";
     this.status = status;
   }
 }
 
+class Struct {}  // of which each struct of the interface is a class
+
+const ranges = { Int32: [-(2 ** 31), 2 ** 31 - 1], Uint32: [0, 2 ** 32 - 1], handle: [0, 2 ** 32 - 1] };
+
 /**
- * @param {BufferSource} [binary] the bytes of calligraphy.wasm; by default it is fetched from beside this file
- * @returns {Promise<object>} the functions of the C interface, and struct(), discard() and text()
+ * @param {BufferSource} [binary] the bytes of calligraphy.wasm; by default it is fetched from beside this file, which
+ * node cannot do
+ * @returns {Promise<object>} the functions of the C interface, and struct(), discard(), text(), polyline(), hint() and
+ * match()
  */
 export async function load(binary) {
   const module = await createModule(binary ? { wasmBinary: binary } : {});
+  const classes = Object.fromEntries(Object.keys(structs).map((name) => [name, structClass(name)]));
   let whole;  // see view()
   const result = allocate(4);  // to which a function writes by its last parameter
-  const library = { struct, discard, text };
-  for (const [name, { parameters, returns, writes }] of Object.entries(functions)) {
-    const symbol = `_calligraphy_${name}`;
+  const library = { struct, discard, text, polyline, hint, match };
+  for (const [name, { parameters, returns }] of Object.entries(functions)) {
+    const symbol = module[`_calligraphy_${name}`];
     library[name] = (...values) => {
-      if (values.length !== parameters) throw new TypeError(`${name}: ${values.length} arguments, not ${parameters}`);
+      if (values.length !== parameters.length) {
+        throw new TypeError(`${name}: ${values.length} arguments, not ${parameters.length}`);
+      }
       const copies = [];
       try {
-        const status = module[symbol](...values.map((value) => pass(value, copies)), result);
-        if (returns) return text(status);
+        for (let i = 0; i < values.length; ++i) values[i] = pass(name, parameters, values, i, copies);
+        const status = symbol(...values, result);
+        if (name === "version" || name === "last_error") return text(status);
         if (status !== constants.OK) throw new CalligraphyError(`${name}: ${library.last_error()}`, status);
         for (const { bytes, address } of copies) bytes.set(memory(address, bytes.length));
-        const written = writes && view().getUint32(result, true);
-        return writes === "text" ? text(written) : written;
+        if (!returns) return undefined;
+        const written = view().getUint32(result, true);
+        return returns === "text" ? text(written) : written;
       } finally {
         for (const { address } of copies) module._free(address);
       }
@@ -55,26 +63,42 @@ export async function load(binary) {
   return library;
 
   /**
-   * A struct with its size, and all else zero unless in `values`. Its members are those in the memory of the library.
-   * One that is an array can be set from any array; read it anew after each call.
+   * Creates a struct: its size is set, and its other members are zero unless given. Its members are those in the memory
+   * of the library; one that is an array can be set from any array, and must be read anew after each call.
    * @param {string} name such as "tick"
    * @param {object} [values] of members
-   * @returns {object}
+   * @returns {object} with a function values(), which copies all members; discard() frees it
    */
   function struct(name, values = {}) {
-    if (!structs[name]) throw new TypeError(`no struct is named ${name}`);
+    if (!classes[name]) throw new TypeError(`no struct is named ${name}`);
+    return Object.assign(Object.preventExtensions(new classes[name]()), { size: structs[name].size }, values);
+  }
+
+  function structClass(name) {
     const { size, members } = structs[name];
-    const made = Object.defineProperty({}, "address", { value: allocate(size) });
-    memory(made.address, size).fill(0);
-    for (const [member, [type, offset, count]] of Object.entries(members)) {
-      Object.defineProperty(made, member, { enumerable: true, ...accessors(type, made.address + offset, count) });
+    class Kind extends Struct {
+      static name = `struct ${name}`;
+      address = allocate(size);
+      constructor() {
+        super();
+        memory(this.address, size).fill(0);
+      }
+      values() {
+        return Object.fromEntries(Object.entries(members).map(([member, [, , count]]) => [
+          member, count && typeof this[member] !== "string" ? this[member].slice() : this[member]]));
+      }
     }
-    return Object.assign(Object.preventExtensions(made), { size }, values);
+    for (const [member, [type, offset, count]] of Object.entries(members)) {
+      Object.defineProperty(Kind.prototype, member, accessors(type, offset, count));
+    }
+    return Kind;
   }
 
   /** Frees the memory of a struct, which must not be used any more. */
   function discard(made) {
+    if (!(made instanceof Struct && made.address)) throw new TypeError("discard: no struct, or it was discarded");
     module._free(made.address);
+    made.address = 0;
   }
 
   /**
@@ -87,29 +111,97 @@ export async function load(binary) {
     return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
   }
 
+  /**
+   * @param {number} shape constants.PATH or constants.OUTLINE
+   * @param {number} [tolerance] [m]
+   * @returns {Float64Array} x and y of each point of a stroke [m, page]
+   */
+  function polyline(page, character, stroke, shape, tolerance = 0) {
+    const count = library.page_polyline(page, character, stroke, shape, tolerance, null, 0);
+    const points = new Float64Array(2 * count);
+    library.page_polyline(page, character, stroke, shape, tolerance, points, count);
+    return points;
+  }
+
+  /** The words for the hint of a tick; empty without one. */
+  function hint(tick) {
+    const words = new Uint8Array(128);
+    library.hint_text(tick, words, words.length);
+    return text(words);
+  }
+
+  /**
+   * Which stroke each pen-down wrote.
+   * @param {number[][][]} paths points [x, y] of each pen-down [m, page]
+   * @param {number} [tolerance] such as constants.TOLERANCE_LENIENT
+   * @returns {{drawn: object[], remarks: object[]}} members of the structs; a remark has a `reason`
+   */
+  function match(page, character, paths, tolerance = constants.TOLERANCE_NORMAL) {
+    const points = Float64Array.from(paths.flat(2));
+    const sizes = Uint32Array.from(paths, (path) => path.length);
+    const handle = library.match_strokes(page, character, points, sizes, paths.length, tolerance);
+    const stroke = struct("drawn_stroke"), remark = struct("remark");
+    try {
+      const drawn = paths.map((_, i) => (library.match_drawn(handle, i, stroke), stroke.values()));
+      const remarks = Array.from({ length: library.match_remark_count(handle) }, (_, i) => {
+        const reason = library.match_remark(handle, i, remark);
+        return { ...remark.values(), reason };
+      });
+      return { drawn, remarks };
+    } finally {
+      [stroke, remark].forEach(discard);
+      library.free(handle);
+    }
+  }
+
   /** How a member is read and written. */
-  function accessors(type, address, count) {
+  function accessors(type, offset, count) {
     if (type === "char") {
       return {
-        get: () => text(memory(address, count)),
-        set: (value) => memory(address, count).fill(0).set(new TextEncoder().encode(`${value}\0`)),
+        get() { return text(memory(this.address + offset, count)); },
+        set(value) { memory(this.address + offset, count).fill(0).set(new TextEncoder().encode(`${value}\0`)); },
       };
     }
     if (count) {
-      const values = () => new globalThis[`${type}Array`](module.HEAPU8.buffer, address, count);
-      return { get: values, set: (given) => values().set(given) };
+      const values = (made) => new (arrayOf(type))(module.HEAPU8.buffer, made.address + offset, count);
+      return { get() { return values(this); }, set(given) { values(this).set(given); } };
     }
-    const [get, set] = [`get${type}`, `set${type}`];
-    return { get: () => Number(view()[get](address, true)), set: (value) => view()[set](address, value, true) };
+    return {
+      get() { return Number(view()[`get${type}`](this.address + offset, true)); },
+      set(value) { view()[`set${type}`](this.address + offset, value, true); },
+    };
   }
 
   /** An argument as a number: the address of what is in memory, or of a copy. */
-  function pass(value, copies) {
+  function pass(name, parameters, values, i, copies) {
+    const value = values[i], [parameter, type] = parameters[i];
+    const refuse = (expected) => {
+      const given = Object(value) === value ? `of type ${value.constructor?.name}` : String(value);
+      throw new TypeError(`${name}: ${parameter} is ${given}, expected ${expected}`);
+    };
+    if (type === "Float64") return typeof value === "number" ? value : refuse("a number");
+    if (ranges[type]) {
+      if (value === null && type === "handle") return 0;
+      const [least, most] = ranges[type];
+      return Number.isInteger(value) && value >= least && value <= most ? value
+        : refuse(type === "handle" ? "a handle" : `an integer from ${least} to ${most}`);
+    }
     if (value === null) return 0;
-    if (typeof value === "number") return value;
-    if (value?.address) return value.address;
-    if (value?.buffer === module.HEAPU8.buffer) return value.byteOffset;
-    const bytes = bytesOf(value);
+    if (type.startsWith("struct ")) {
+      return value instanceof classes[type.slice(7)] && value.address ? value.address : refuse(`a ${type}`);
+    }
+    if (type === "text") return typeof value === "string" ? copy(textBytes(value), copies) : refuse("a text");
+    const [access, element] = type.split(" ");
+    const ArrayType = arrayOf(element);
+    const array = access === "read" && Array.isArray(value) ? ArrayType.from(value) : value;
+    if (!(array instanceof ArrayType)) refuse(`a ${ArrayType.name}`);
+    const least = leastLength(parameter, parameters[i + 1]?.[0], values[i + 1]);
+    if (array.length < least) refuse(`at least ${least} elements, not ${array.length}`);
+    if (array.buffer === module.HEAPU8.buffer) return array.byteOffset;
+    return copy(new Uint8Array(array.buffer, array.byteOffset, array.byteLength), copies);
+  }
+
+  function copy(bytes, copies) {
     const address = allocate(bytes.length);
     memory(address, bytes.length).set(bytes);
     copies.push({ bytes, address });
@@ -117,7 +209,7 @@ export async function load(binary) {
   }
 
   function allocate(size) {
-    const address = module._malloc(size);
+    const address = module._malloc(size || 1);
     if (!address) throw new RangeError(`no memory for ${size} bytes`);
     return address;
   }
@@ -133,10 +225,15 @@ export async function load(binary) {
   }
 }
 
-/** The bytes of an argument that is not in the memory of the library. */
-function bytesOf(value) {
-  if (typeof value === "string") return new TextEncoder().encode(`${value}\0`);
-  if (Array.isArray(value)) return new Uint8Array(Float64Array.from(value).buffer);
-  if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
-  throw new TypeError(`neither a number, text, struct, array nor null: ${value}`);
+const arrayOf = (type) => globalThis[`${type}Array`];
+
+/** How many elements an array must have, by its name, that of the next parameter, and that argument. */
+function leastLength(name, next, count) {
+  if (next === "path_sizes") return 2 * count.reduce((sum, size) => sum + size, 0);
+  if (["capacity", "size", "path_count"].includes(next)) return name === "points" ? 2 * count : count;
+  return 3;  // a position, a velocity or a force
+}
+
+function textBytes(text) {
+  return new TextEncoder().encode(`${text}\0`);
 }

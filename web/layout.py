@@ -20,6 +20,12 @@ MEMBERS = {
 RESULTS = {
     r"calligraphy_\w+\*\*": "number", r"u?int32_t\*": "number", r"size_t\*": "number", r"const char\*\*": "text",
 }
+# Types of the other parameters, and what JavaScript passes for them: an array of a type, to be read or written.
+PARAMETERS = {
+    "double": "Float64", "int32_t": "Int32", "uint32_t": "Uint32", "size_t": "Uint32", "void*": "handle",
+    "const char*": "text", "const double*": "read Float64", "double*": "write Float64",
+    "const uint32_t*": "read Uint32", "int32_t*": "write Int32", "const void*": "read Uint8", "char*": "write Uint8",
+}
 
 
 def layout(struct, body):
@@ -37,13 +43,26 @@ def layout(struct, body):
     return {"size": -(-end // alignment) * alignment, "members": members}
 
 
-def function(returns, parameters):
-    """The number of parameters for which JavaScript passes arguments, and what it returns."""
-    types = [re.sub(r" ?\w+$", "", parameter.strip()) for parameter in parameters.split(",") if parameter != "void"]
+def parameter(declaration, structs):
+    """The name of a parameter, and its type in JavaScript."""
+    kind, name = re.fullmatch(r"(.*?) ?(\w+)", declaration).groups()
+    ours = re.fullmatch(r"(?:const )?calligraphy_(\w+)\*", kind)
+    if ours:
+        return [name, f"struct {ours[1]}" if ours[1] in structs else "handle"]
+    if kind not in PARAMETERS:
+        sys.exit(f"cannot pass the parameter `{declaration}`; known types: {', '.join(PARAMETERS)}")
+    return [name, PARAMETERS[kind]]
+
+
+def function(returns, declaration, structs):
+    """The parameters for which JavaScript passes arguments, and what it returns."""
+    parameters = [part for part in re.sub(r"\s+", " ", declaration).split(", ") if part != "void"]
     if returns != "calligraphy_status":
-        return {"parameters": len(types), "returns": "text"}
-    result = next((kind for pattern, kind in RESULTS.items() if types and re.fullmatch(pattern, types[-1])), None)
-    return {"parameters": len(types) - 1, "writes": result} if result else {"parameters": len(types)}
+        return {"parameters": [], "returns": "text"}
+    last = re.sub(r" ?\w+$", "", parameters[-1])
+    result = next((kind for pattern, kind in RESULTS.items() if re.fullmatch(pattern, last)), None)
+    passed = [parameter(each, structs) for each in (parameters[:-1] if result else parameters)]
+    return {"parameters": passed, "returns": result}
 
 
 def constant(enumeration, line):
@@ -59,7 +78,7 @@ def main():
     structs = {name: layout(name, body) for name, body in re.findall(r"struct calligraphy_(\w+) \{(.*?)\}", text, re.S)}
     constants = dict(constant(name, line) for name, body in re.findall(r"enum (\w+) \{(.*?)\}", text, re.S)
                      for line in body.split(","))
-    functions = {name: function(returns, parameters) for returns, name, parameters in re.findall(
+    functions = {name: function(returns, parameters, structs) for returns, name, parameters in re.findall(
         r"^CALLIGRAPHY_API ([\w* ]+) calligraphy_(\w+)\((.*?)\);", text, re.S | re.M)}
 
     def table(name, values):

@@ -24,9 +24,8 @@ function intendedPath() {
     }
   };
   for (let stroke = 0; stroke < 5; ++stroke) {
-    const count = library.page_polyline(page, 0, stroke, constants.PATH, 0, null, 0);
-    const points = new Float64Array(2 * count);
-    library.page_polyline(page, 0, stroke, constants.PATH, 0, points, count);
+    const points = library.polyline(page, 0, stroke, constants.PATH);
+    const count = points.length / 2;
     go(points[0] + 0.0015, points[1], 0.008);
     for (let i = 0; i < count; ++i) go(points[2 * i] + 0.0015, points[2 * i + 1], -0.003);
     go(points[2 * count - 2] + 0.0015, points[2 * count - 1], 0.008);

@@ -7,7 +7,7 @@ main() too, before which stands what is given.
 import dataclasses
 import re
 
-LANGUAGES = {"c", "cmake", "cpp", "csharp", "python", "rust", "sh", "text"}
+LANGUAGES = {"c", "cmake", "cpp", "csharp", "js", "python", "rust", "sh", "text"}
 FENCE = re.compile(r"(?:^<!-- given:\n(?P<given>.*?)-->\n)?^```(?P<language>[^\n]*)\n(?P<text>.*?)^```$",
                    re.DOTALL | re.MULTILINE)
 

@@ -1,7 +1,7 @@
 // The C interface in JavaScript: what web/calligraphy.js makes of it.
 // usage: node test_interface.mjs DIRECTORY, where scripts/web.sh built it
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { resolve } from "node:path";
 import test from "node:test";
 
@@ -18,22 +18,28 @@ const page = library.page_lay_out(library.set_built_in(), "永", null, null);
 const profile = library.struct("capabilities");
 library.device_profile("touch", profile);
 
+const mappingOnDesk = library.struct("mapping");
+library.page_mapping(page, constants.DESK, 1, mappingOnDesk);
+const device = library.pointer_device_create(profile, null, null, mappingOnDesk);
+
 test("the version is a text", () => assert.match(library.version(), /^\d+\.\d+\.\d+$/));
 
 test("structs are written and read by member", () => {
   assert.equal(profile.name, "touch");
   const mapping = library.struct("mapping", { scale: 2, offset: [1, 2, 3] });
-  assert.deepEqual({ ...mapping, rotation: 0 },
+  assert.deepEqual({ ...mapping.values(), rotation: 0 },
                    { size: 112, rotation: 0, offset: Float64Array.of(1, 2, 3), scale: 2 });
   mapping.offset[1] = 5;
   assert.deepEqual([...mapping.offset], [1, 5, 3]);
-  const renamed = library.struct("capabilities", { ...profile, name: "筆" });
+  const renamed = library.struct("capabilities", { ...profile.values(), name: "筆" });
   assert.equal(renamed.name, "筆");
   assert.throws(() => { renamed.name = "n".repeat(44); }, RangeError);
   assert.throws(() => { mapping.ofset = 1; }, TypeError);
   assert.throws(() => library.struct("map"), /no struct is named map/);
+  const copy = mapping.values();
   library.discard(mapping);
   library.discard(renamed);
+  assert.deepEqual([...copy.offset], [1, 5, 3]);
 });
 
 test("an error is a status with its text", () => {
@@ -46,7 +52,31 @@ test("an error is a status with its text", () => {
 
 test("what no function could be given is refused before it is called", () => {
   assert.throws(() => library.page_lay_out(page, "永"), /page_lay_out: 2 arguments, not 4/);
-  assert.throws(() => library.device_profile("touch", undefined), /neither a number.*: undefined/);
+  const stroke = library.struct("stroke"), info = library.struct("page_info");
+  const refused = [
+    [() => library.device_profile("touch", undefined), /device_profile: \w+ is undefined, expected a struct capabil/],
+    [() => library.device_profile(7, profile), /device_profile: name is 7, expected a text/],
+    [() => library.page_stroke(page, 0, 0, info), /result is of type struct page_info, expected a struct stroke/],
+    [() => library.page_stroke(page, 0, 0.5, stroke), /page_stroke: stroke is 0.5, expected an integer from -21474836/],
+    [() => library.page_stroke(page, 0, 2 ** 31, stroke), /stroke is 2147483648, expected an integer/],
+    [() => library.set_stroke_count(page, -1), /expected an integer from 0/],
+    [() => library.page_stroke("page", 0, 0, stroke), /expected a handle/],
+    [() => library.page_mapping(page, constants.DESK, "1", mappingOnDesk), /scale is 1, expected a number/],
+    [() => library.page_polyline(page, 0, 0, constants.PATH, 0, new Float32Array(8), 4), /expected a Float64Array/],
+    [() => library.page_polyline(page, 0, 0, constants.PATH, 0, [0, 0], 1), /expected a Float64Array/],
+    [() => library.page_polyline(page, 0, 0, constants.PATH, 0, new Float64Array(7), 4), /at least 8 elements, not 7/],
+    [() => library.device_write(device, [0, 0]), /force is of type Array, expected at least 3 elements, not 2/],
+    [() => library.set_from_memory(new Uint8Array(4), 5, null), /at least 5 elements, not 4/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [2, 1], 2, 0), /points .* at least 6 elements, not 4/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [2], 2, 0), /path_sizes .* at least 2 elements, not 1/],
+    [() => library.discard({}), /discard: no struct/],
+    [() => library.discard(null), /discard: no struct/],
+    [() => { library.discard(info); library.discard(info); }, /it was discarded/],
+    [() => library.page_read_info(page, info), /expected a struct page_info/],
+  ];
+  for (const [call, pattern] of refused) {
+    assert.throws(call, (error) => error instanceof TypeError && pattern.test(error), `${call}`);
+  }
 });
 
 test("a set from memory with broken bytes is refused", () => {
@@ -67,11 +97,12 @@ test("the characters of a set are listed", () => {
 });
 
 test("an outline is read", () => {
-  const count = library.page_polyline(page, 0, 0, constants.OUTLINE, 0, null, 0);
-  const points = new Float64Array(2 * count);
-  assert.equal(library.page_polyline(page, 0, 0, constants.OUTLINE, 0, points, count), count);
-  assert.ok(count > 10 && points.every((value) => value > 0 && value < 0.16));
-  refuses(() => library.page_polyline(page, 0, 0, constants.OUTLINE, 0, points, count - 1), constants.TOO_SMALL, /./);
+  const points = library.polyline(page, 0, 0, constants.OUTLINE);
+  assert.ok(points.length > 20 && points.every((value) => value > 0 && value < 0.16));
+  assert.ok(library.polyline(page, 0, 4, constants.PATH, 1e-3).length
+            < library.polyline(page, 0, 4, constants.PATH).length);
+  const short = new Float64Array(2);
+  refuses(() => library.page_polyline(page, 0, 0, constants.OUTLINE, 0, short, 1), constants.TOO_SMALL, /./);
 });
 
 test("the hint of a tick is a text", () => {
@@ -82,19 +113,27 @@ test("the hint of a tick is a text", () => {
     corner.time = i * 1e-3;
     library.renderer_update(renderer, corner, tick);
   }
-  const words = new Uint8Array(128);
-  library.hint_text(tick, words, words.length);
-  assert.match(library.text(words), /^too far from the start: \d+ mm to the upper/);
+  assert.match(library.hint(tick), /^too far from the start: \d+ mm to the upper/);
+  assert.equal(library.hint(library.struct("tick")), "");
   assert.equal(library.renderer_clipped(renderer), "");
 });
 
-test("remarks are read", () => {
-  const tap = Float64Array.of(0.05, 0.05, 0.05, 0.05);
-  const match = library.match_strokes(page, 0, tap, Uint32Array.of(2), 1, constants.TOLERANCE_NORMAL);
-  assert.ok(library.match_remark_count(match) > 0);
-  const remark = library.struct("remark");
-  assert.match(library.match_remark(match, 0, remark), /stroke/);
-  assert.ok(remark.kind >= constants.REMARK_ORDER && remark.kind <= constants.REMARK_EXTRA);
+test("a force may be any array of three", () => {
+  library.device_write(device, [0, 0, 1]);
+  library.device_write(device, Float64Array.of(0, 0, 1));
+  library.device_write(device, library.struct("tick").force);
+});
+
+test("strokes are matched", () => {
+  const cross = library.page_lay_out(library.set_built_in(), "十", null, null);
+  const down = [[0.08, 0.078], [0.08, 0.042]], across = [[0.062, 0.062], [0.098, 0.062]];
+  const { drawn, remarks } = library.match(cross, 0, [down, across]);
+  assert.deepEqual(drawn.map(({ stroke }) => stroke), [1, 0]);
+  assert.equal(remarks.length, 1);
+  assert.match(remarks[0].reason, /stroke 2 .* where stroke 1/);
+  assert.equal(remarks[0].kind, constants.REMARK_ORDER);
+  assert.deepEqual(library.match(cross, 0, [across, down]).remarks, []);
+  refuses(() => library.match(cross, 3, [down]), constants.INVALID_VALUE, /character = 3/);
 });
 
 test("memory may grow", () => {
@@ -103,4 +142,29 @@ test("memory may grow", () => {
   refuses(() => library.set_from_memory(broken, broken.length, null), constants.FORMAT_ERROR, /memory/);
   assert.equal(tick.distance, 1.5);
   assert.equal(library.set_stroke_count(library.set_built_in(), "永".codePointAt(0)), 5);
+});
+
+test("the block of docs/c.md guides a pen that begins where the first stroke does", async () => {
+  const blocks = readFileSync(new URL("../../../docs/c.md", import.meta.url), "utf8").match(/```js\n.*?```/gs);
+  assert.equal(blocks.length, 1);
+  const bytes = 'load((await import("node:fs")).readFileSync(new URL("calligraphy.wasm", import.meta.url)))';
+  const source = blocks[0].slice(6, -3).replace("load()", bytes);
+  writeFileSync(`${directory}/block.mjs`, source);
+  const block = await import(`${directory}/block.mjs`);
+  assert.equal(block.inks.length, 5);
+  assert.ok(block.inks.every((ink) => ink.length > 20));
+
+  const path = library.polyline(page, 0, 0, constants.PATH);
+  block.move(path[0], path[1], 0);
+  for (let i = 0; i < 60; ++i) block.advance(16.7);
+  const start = block.advance(0);
+  assert.ok(Math.hypot(start.pen[0] - path[0], start.pen[1] - path[1]) < 1e-3);
+  assert.ok(start.pen[2] > 0 && !start.writes);
+  const pictures = [];
+  for (let i = 0; i < path.length; i += 2) {
+    block.move(path[i], path[i + 1], 0.5);
+    for (let j = 0; j < 2; ++j) pictures.push(block.advance(1e6));
+  }
+  assert.ok(pictures.some(({ writes }) => writes));
+  assert.match(pictures.at(-1).hint, /^lift/);
 });
