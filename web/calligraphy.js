@@ -159,7 +159,7 @@ export async function load(binary) {
     if (type === "char") {
       return {
         get() { return text(memory(this.address + offset, count)); },
-        set(value) { memory(this.address + offset, count).fill(0).set(new TextEncoder().encode(`${value}\0`)); },
+        set(value) { memory(this.address + offset, count).set(new TextEncoder().encode(`${value}\0`)); },
       };
     }
     if (count) {

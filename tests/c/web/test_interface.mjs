@@ -36,16 +36,20 @@ test("structs are written and read by member", () => {
   assert.throws(() => { renamed.name = "n".repeat(44); }, RangeError);
   assert.throws(() => { mapping.ofset = 1; }, TypeError);
   assert.throws(() => library.struct("map"), /no struct is named map/);
+  renamed.name = "n";
+  assert.equal(renamed.name, "n");
   const copy = mapping.values();
+  mapping.offset = [7, 8, 9];
+  assert.deepEqual([...copy.offset], [1, 5, 3]);
   library.discard(mapping);
   library.discard(renamed);
-  assert.deepEqual([...copy.offset], [1, 5, 3]);
 });
 
 test("an error is a status with its text", () => {
   refuses(() => library.device_profile("quill", profile), constants.INVALID_VALUE, /device_profile: .*"quill"/);
   refuses(() => library.page_stroke(page, 0, 5, library.struct("stroke")), constants.INVALID_VALUE, /stroke = 5/);
   refuses(() => library.page_lay_out(0, "永", null, null), constants.INVALID_HANDLE, /set is null/);
+  refuses(() => library.page_lay_out(null, "永", null, null), constants.INVALID_HANDLE, /set is null/);
   refuses(() => library.set_stroke_count(library.set_built_in(), 0x41), constants.NOT_FOUND, /U\+0041/);
   refuses(() => library.set_open("missing.set"), constants.FILE_ERROR, /missing\.set/);
 });
@@ -69,7 +73,7 @@ test("what no function could be given is refused before it is called", () => {
     [() => library.set_from_memory(new Uint8Array(4), 5, null), /at least 5 elements, not 4/],
     [() => library.match_strokes(page, 0, [0, 0, 1, 1], [2, 1], 2, 0), /points .* at least 6 elements, not 4/],
     [() => library.match_strokes(page, 0, [0, 0, 1, 1], [2], 2, 0), /path_sizes .* at least 2 elements, not 1/],
-    [() => library.discard({}), /discard: no struct/],
+    [() => library.discard({ address: profile.address }), /discard: no struct/],
     [() => library.discard(null), /discard: no struct/],
     [() => { library.discard(info); library.discard(info); }, /it was discarded/],
     [() => library.page_read_info(page, info), /expected a struct page_info/],
@@ -105,6 +109,13 @@ test("an outline is read", () => {
   refuses(() => library.page_polyline(page, 0, 0, constants.OUTLINE, 0, short, 1), constants.TOO_SMALL, /./);
 });
 
+test("results are written to a part of an array", () => {
+  const all = new Float64Array(8);
+  library.page_polyline(page, 0, 0, constants.PATH, 0.1, all.subarray(2, 6), 2);  // the chord of a dot
+  assert.deepEqual([...all.subarray(0, 2), ...all.subarray(6)], [0, 0, 0, 0]);
+  assert.ok(all.subarray(2, 6).every((value) => value > 0));
+});
+
 test("the hint of a tick is a text", () => {
   const renderer = library.renderer_create(page, null, profile, null);
   const corner = library.struct("device_state", { position: [-0.05, -0.03, -0.002], has_velocity: 1 });
@@ -134,6 +145,21 @@ test("strokes are matched", () => {
   assert.equal(remarks[0].kind, constants.REMARK_ORDER);
   assert.deepEqual(library.match(cross, 0, [across, down]).remarks, []);
   refuses(() => library.match(cross, 3, [down]), constants.INVALID_VALUE, /character = 3/);
+});
+
+test("what a call needed is freed", () => {
+  /** The address of the next struct: where it goes depends on what else is in memory. */
+  const next = () => {
+    const made = library.struct("tick"), { address } = made;
+    library.discard(made);
+    return address;
+  };
+  const path = [[0.05, 0.05], [0.05, 0.06]];
+  library.match(page, 0, [path]);
+  const before = next();
+  for (let i = 0; i < 1000; ++i) library.match(page, 0, [path]);
+  for (let i = 0; i < 10; ++i) library.device_write(device, [0, 0, 0]);
+  assert.equal(next(), before);
 });
 
 test("memory may grow", () => {
