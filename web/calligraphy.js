@@ -25,7 +25,19 @@ export class CalligraphyError extends Error {
 
 class Struct {}  // of which each struct of the interface is a class
 
-const ranges = { Int32: [-(2 ** 31), 2 ** 31 - 1], Uint32: [0, 2 ** 32 - 1], handle: [0, 2 ** 32 - 1] };
+const ranges = {
+  Int32: [-(2 ** 31), 2 ** 31 - 1], Uint32: [0, 2 ** 32 - 1], BigUint64: [0, Number.MAX_SAFE_INTEGER],
+  handle: [0, 2 ** 32 - 1],
+};
+
+/** Refuses what is no number of this type; true and false are 1 and 0. */
+function checked(type, value, refuse) {
+  if (typeof value === "boolean") value = Number(value);
+  if (type === "Float64") return typeof value === "number" ? value : refuse("a number");
+  const [least, most] = ranges[type];
+  return Number.isInteger(value) && value >= least && value <= most ? value
+    : refuse(type === "handle" ? "a handle" : `an integer from ${least} to ${most}`);
+}
 
 /**
  * @param {BufferSource} [binary] the bytes of calligraphy.wasm; by default it is fetched from beside this file, which
@@ -63,25 +75,32 @@ export async function load(binary) {
   return library;
 
   /**
-   * Creates a struct: its size is set, and its other members are zero unless given. Its members are those in the memory
-   * of the library; one that is an array can be set from any array, and must be read anew after each call.
+   * Creates a struct, whose members are zero unless given. Its members are those in the memory of the library; one that
+   * is an array can be set from any array of its length, and must be read anew after each call.
    * @param {string} name such as "tick"
-   * @param {object} [values] of members
+   * @param {object} [values] of members, or another such struct
    * @returns {object} with a function values(), which copies all members; discard() frees it
    */
   function struct(name, values = {}) {
     if (!classes[name]) throw new TypeError(`no struct is named ${name}`);
-    return Object.assign(Object.preventExtensions(new classes[name]()), { size: structs[name].size }, values);
+    const made = Object.preventExtensions(new classes[name]());
+    try {
+      return Object.assign(made, values instanceof Struct ? values.values() : values);
+    } catch (error) {
+      discard(made);
+      throw error;
+    }
   }
 
   function structClass(name) {
     const { size, members } = structs[name];
     class Kind extends Struct {
       static name = `struct ${name}`;
-      address = allocate(size);
       constructor() {
         super();
+        Object.defineProperty(this, "address", { value: allocate(size), writable: true });
         memory(this.address, size).fill(0);
+        view().setUint32(this.address, size, true);
       }
       values() {
         return Object.fromEntries(Object.entries(members).map(([member, [, , count]]) => [
@@ -89,16 +108,16 @@ export async function load(binary) {
       }
     }
     for (const [member, [type, offset, count]] of Object.entries(members)) {
-      Object.defineProperty(Kind.prototype, member, accessors(type, offset, count));
+      Object.defineProperty(Kind.prototype, member, accessors(member, type, offset, count));
     }
     return Kind;
   }
 
   /** Frees the memory of a struct, which must not be used any more. */
   function discard(made) {
-    if (!(made instanceof Struct && made.address)) throw new TypeError("discard: no struct, or it was discarded");
+    if (!(made instanceof Struct && made.address > 0)) throw new TypeError("discard: no struct, or it was discarded");
     module._free(made.address);
-    made.address = 0;
+    made.address = -Infinity;  // where nothing is read or written
   }
 
   /**
@@ -137,8 +156,8 @@ export async function load(binary) {
    * @returns {{drawn: object[], remarks: object[]}} members of the structs; a remark has a `reason`
    */
   function match(page, character, paths, tolerance = constants.TOLERANCE_NORMAL) {
-    const points = Float64Array.from(paths.flat(2));
-    const sizes = Uint32Array.from(paths, (path) => path.length);
+    const points = paths.flatMap((path) => path.flatMap(([x, y]) => [x, y]));
+    const sizes = paths.map((path) => path.length);
     const handle = library.match_strokes(page, character, points, sizes, paths.length, tolerance);
     const stroke = struct("drawn_stroke"), remark = struct("remark");
     try {
@@ -155,20 +174,32 @@ export async function load(binary) {
   }
 
   /** How a member is read and written. */
-  function accessors(type, offset, count) {
+  function accessors(name, type, offset, count) {
+    const refuse = (expected) => { throw new TypeError(`${name}: expected ${expected}`); };
     if (type === "char") {
       return {
         get() { return text(memory(this.address + offset, count)); },
-        set(value) { memory(this.address + offset, count).set(new TextEncoder().encode(`${value}\0`)); },
+        set(value) {
+          const bytes = textBytes(value) ?? refuse("a text without zeros");
+          if (bytes.length > count) refuse(`at most ${count - 1} bytes of UTF-8`);
+          memory(this.address + offset, count).set(bytes);
+        },
       };
     }
     if (count) {
       const values = (made) => new (arrayOf(type))(module.HEAPU8.buffer, made.address + offset, count);
-      return { get() { return values(this); }, set(given) { values(this).set(given); } };
+      return {
+        get() { return values(this); },
+        set(given) { values(this).set(given?.length === count ? given : refuse(`an array of ${count}`)); },
+      };
     }
     return {
       get() { return Number(view()[`get${type}`](this.address + offset, true)); },
-      set(value) { view()[`set${type}`](this.address + offset, value, true); },
+      set(value) {
+        const number = checked(type, value, refuse);
+        if (offset === 0 && number !== this.size) refuse(`${this.size}, which cannot be changed`);
+        view()[`set${type}`](this.address + offset, type === "BigUint64" ? BigInt(number) : number, true);
+      },
     };
   }
 
@@ -179,23 +210,18 @@ export async function load(binary) {
       const given = Object(value) === value ? `of type ${value.constructor?.name}` : String(value);
       throw new TypeError(`${name}: ${parameter} is ${given}, expected ${expected}`);
     };
-    if (type === "Float64") return typeof value === "number" ? value : refuse("a number");
-    if (ranges[type]) {
-      if (value === null && type === "handle") return 0;
-      const [least, most] = ranges[type];
-      return Number.isInteger(value) && value >= least && value <= most ? value
-        : refuse(type === "handle" ? "a handle" : `an integer from ${least} to ${most}`);
-    }
-    if (value === null) return 0;
+    const isNumber = ["Float64", "Int32", "Uint32"].includes(type);
+    if (value === null && !isNumber) return 0;
+    if (isNumber || type === "handle") return checked(type, value, refuse);
     if (type.startsWith("struct ")) {
-      return value instanceof classes[type.slice(7)] && value.address ? value.address : refuse(`a ${type}`);
+      return value instanceof classes[type.slice(7)] && value.address > 0 ? value.address : refuse(`a ${type}`);
     }
-    if (type === "text") return typeof value === "string" ? copy(textBytes(value), copies) : refuse("a text");
+    if (type === "text") return copy(textBytes(value) ?? refuse("a text without zeros"), copies);
     const [access, element] = type.split(" ");
     const ArrayType = arrayOf(element);
     const array = access === "read" && Array.isArray(value) ? ArrayType.from(value) : value;
     if (!(array instanceof ArrayType)) refuse(`a ${ArrayType.name}`);
-    const least = leastLength(parameter, parameters[i + 1]?.[0], values[i + 1]);
+    const least = leastLength(element, parameters, values, i);
     if (array.length < least) refuse(`at least ${least} elements, not ${array.length}`);
     if (array.buffer === module.HEAPU8.buffer) return array.byteOffset;
     return copy(new Uint8Array(array.buffer, array.byteOffset, array.byteLength), copies);
@@ -227,13 +253,17 @@ export async function load(binary) {
 
 const arrayOf = (type) => globalThis[`${type}Array`];
 
-/** How many elements an array must have, by its name, that of the next parameter, and that argument. */
-function leastLength(name, next, count) {
-  if (next === "path_sizes") return 2 * count.reduce((sum, size) => sum + size, 0);
+/** How many elements an array must have, by the names of its parameter and the next one, and their arguments. */
+function leastLength(element, parameters, values, i) {
+  const [[name], [next] = []] = parameters.slice(i), count = values[i + 1];
+  if (next === "path_sizes") {
+    return 2 * Uint32Array.from(count ?? []).subarray(0, values[i + 2]).reduce((sum, size) => sum + size, 0);
+  }
   if (["capacity", "size", "path_count"].includes(next)) return name === "points" ? 2 * count : count;
-  return 3;  // a position, a velocity or a force
+  return element === "Float64" ? 3 : 1;  // a position, a velocity or a force; or a number
 }
 
+/** A text with its zero in UTF-8; undefined if it is none, or has a zero itself. */
 function textBytes(text) {
-  return new TextEncoder().encode(`${text}\0`);
+  return typeof text === "string" && !text.includes("\0") ? new TextEncoder().encode(`${text}\0`) : undefined;
 }

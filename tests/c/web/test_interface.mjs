@@ -33,7 +33,20 @@ test("structs are written and read by member", () => {
   assert.deepEqual([...mapping.offset], [1, 5, 3]);
   const renamed = library.struct("capabilities", { ...profile.values(), name: "筆" });
   assert.equal(renamed.name, "筆");
-  assert.throws(() => { renamed.name = "n".repeat(44); }, RangeError);
+  assert.throws(() => { renamed.name = "n".repeat(44); }, /name: expected at most \d+ bytes/);
+  assert.throws(() => { renamed.name = "a\0b"; }, /name: expected a text without zeros/);
+  assert.throws(() => { mapping.offset = [1, 2]; }, /offset: expected an array of 3/);
+  assert.throws(() => { mapping.scale = "2"; }, /scale: expected a number/);
+  assert.throws(() => { mapping.size = 4096; }, /size: expected 112, which cannot be changed/);
+  assert.throws(() => library.struct("mapping", profile), TypeError);
+  assert.throws(() => library.struct("tick", { status: 2 ** 32 }), /status: expected an integer/);
+  const another = library.struct("mapping", mapping);
+  another.scale = 3;
+  assert.equal(mapping.scale, 2);
+  library.discard(another);
+  assert.throws(() => { another.scale = 4; }, RangeError);
+  const servo = library.struct("servo_state", { ticks: 5, fault: "unplugged" });
+  assert.deepEqual(library.struct("servo_state", servo.values()).values(), servo.values());
   assert.throws(() => { mapping.ofset = 1; }, TypeError);
   assert.throws(() => library.struct("map"), /no struct is named map/);
   renamed.name = "n";
@@ -73,6 +86,12 @@ test("what no function could be given is refused before it is called", () => {
     [() => library.set_from_memory(new Uint8Array(4), 5, null), /at least 5 elements, not 4/],
     [() => library.match_strokes(page, 0, [0, 0, 1, 1], [2, 1], 2, 0), /points .* at least 6 elements, not 4/],
     [() => library.match_strokes(page, 0, [0, 0, 1, 1], [2], 2, 0), /path_sizes .* at least 2 elements, not 1/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [3, -1], 1, 0), /points .* at least 6 elements/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [-1], 1, 0), /points .* at least 8589934590 elements/],
+    [() => library.page_lay_out(page, "永", null, new Int32Array(0)), /placed .* at least 1 elements/],
+    [() => library.set_open("永\0"), /path is .*expected a text without zeros/],
+    [() => library.page_mapping(page, constants.DESK, null, mappingOnDesk), /scale is null, expected a number/],
+    [() => library.page_stroke(page, 0, null, stroke), /stroke is null, expected an integer/],
     [() => library.discard({ address: profile.address }), /discard: no struct/],
     [() => library.discard(null), /discard: no struct/],
     [() => { library.discard(info); library.discard(info); }, /it was discarded/],
@@ -81,6 +100,13 @@ test("what no function could be given is refused before it is called", () => {
   for (const [call, pattern] of refused) {
     assert.throws(call, (error) => error instanceof TypeError && pattern.test(error), `${call}`);
   }
+});
+
+test("what does not fit on a page is told", () => {
+  const placed = new Int32Array(1);
+  const small = library.struct("layout", { width: 0.1, height: 0.05, em: 0.03 });
+  library.free(library.page_lay_out(library.set_built_in(), "永十永十", small, placed));
+  assert.equal(placed[0], 2);
 });
 
 test("a set from memory with broken bytes is refused", () => {
@@ -143,7 +169,8 @@ test("strokes are matched", () => {
   assert.equal(remarks.length, 1);
   assert.match(remarks[0].reason, /stroke 2 .* where stroke 1/);
   assert.equal(remarks[0].kind, constants.REMARK_ORDER);
-  assert.deepEqual(library.match(cross, 0, [across, down]).remarks, []);
+  const withPressure = [across, down].map((path) => path.map(([x, y]) => [x, y, 0.5]));
+  assert.deepEqual(library.match(cross, 0, withPressure).remarks, []);
   refuses(() => library.match(cross, 3, [down]), constants.INVALID_VALUE, /character = 3/);
 });
 
@@ -158,6 +185,7 @@ test("what a call needed is freed", () => {
   library.match(page, 0, [path]);
   const before = next();
   for (let i = 0; i < 1000; ++i) library.match(page, 0, [path]);
+  for (let i = 0; i < 1000; ++i) assert.throws(() => library.struct("tick", { nothing: 1 }), TypeError);
   for (let i = 0; i < 10; ++i) library.device_write(device, [0, 0, 0]);
   assert.equal(next(), before);
 });
