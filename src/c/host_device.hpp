@@ -14,10 +14,11 @@ class HostDevice final : public HapticDevice {
   }
 
   const Capabilities& capabilities() const noexcept override { return capabilities_; }
-  /// The sample that was supplied last: fresh once, then stale.
+  /// The sample that was supplied last: fresh once, then stale; what says that there is no sample stays.
   DeviceState read() noexcept override {
     const DeviceState sample = sample_;
-    if (sample_.status == DeviceStatus::ok) sample_.status = DeviceStatus::stale;
+    const bool is_fresh = sample.status == DeviceStatus::ok || sample.status == DeviceStatus::warm_motors;
+    if (is_fresh) sample_.status = DeviceStatus::stale;
     return sample;
   }
   void write(const Eigen::Vector3d& force) noexcept override { force_ = output_force(capabilities_, force); }

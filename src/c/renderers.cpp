@@ -79,7 +79,7 @@ calligraphy_status calligraphy_renderer_update(calligraphy_renderer* renderer, c
   if (const calligraphy_status status = begin_tick(tick)) return status;
   auto* const found = find<RendererObject>(renderer);
   if (!found) return refuse_handle(Kind::renderer, renderer);
-  if (const calligraphy_status status = check_size(state, "calligraphy_device_state")) return status;
+  if (const calligraphy_status status = check_given(state, "calligraphy_device_state")) return status;
   found->renderer.update(state_of(state));
   write_tick(*found, tick);
   return CALLIGRAPHY_OK;

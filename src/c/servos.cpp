@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -9,6 +10,7 @@ namespace {
 ServoOptions virtual_time(double rate) {
   ServoOptions options;
   options.rate = rate;
+  options.timeout = std::max(options.timeout, 2.0 / rate);  // the least that a servo takes
   options.work_clock = []() noexcept { return 0.0; };  // the program's time stands still during a step
   return options;
 }
@@ -25,8 +27,17 @@ ForceLaw law_of(ServoObject& servo) {
 
 /// What a tick says of a step in which the renderer was not updated.
 void describe_gap(const ServoStatus& status, calligraphy_tick* tick) noexcept {
-  const bool is_gap = status.device == DeviceStatus::ok || status.device == DeviceStatus::stale;
-  tick->status = is_gap ? CALLIGRAPHY_TICK_STALE : CALLIGRAPHY_TICK_DEVICE_FAULT;
+  switch (status.device) {
+    case DeviceStatus::ok:
+    case DeviceStatus::warm_motors:
+      tick->status = status.fault == DeviceFault::corrupted_frame ? CALLIGRAPHY_TICK_BAD_SAMPLE : CALLIGRAPHY_TICK_STALE;
+      break;
+    case DeviceStatus::stale:
+      tick->status = CALLIGRAPHY_TICK_STALE;
+      break;
+    default:
+      tick->status = CALLIGRAPHY_TICK_DEVICE_FAULT;
+  }
   tick->events = 0;
 }
 

@@ -39,17 +39,23 @@ Struct* copy_struct(const Struct* from, Struct* to) noexcept {
   return to;
 }
 
+/// Whether all that a caller's struct says can be taken. Does not allocate.
+template <class Struct>
+calligraphy_status check_given(const Struct* from, const char* name) noexcept {
+  if (const calligraphy_status status = check_size(from, name)) return status;
+  const char* const bytes = reinterpret_cast<const char*>(from);
+  const bool is_known = std::all_of(bytes + std::min<std::size_t>(from->size, sizeof(Struct)), bytes + from->size,
+                                    [](char byte) { return byte == 0; });
+  return is_known ? CALLIGRAPHY_OK
+                  : refuse(CALLIGRAPHY_INVALID_VALUE, "%s: it sets members that version %s does not have", name,
+                           calligraphy_version());
+}
+
 /// What a caller's struct says, whatever its size. What is beyond the caller's size is zero.
 /// @throws Refusal naming the struct if it is null or too small, or says what this version does not know
 template <class Struct>
 Struct read_struct(const Struct* from, const char* name) {
-  if (const calligraphy_status status = check_size(from, name)) throw_refused(status);
-  const std::size_t size = from->size;
-  const char* const bytes = reinterpret_cast<const char*>(from);
-  if (std::any_of(bytes + std::min(size, sizeof(Struct)), bytes + size, [](char byte) { return byte != 0; })) {
-    throw Refusal(CALLIGRAPHY_INVALID_VALUE,
-                  std::string(name) + ": it sets members that version " + calligraphy_version() + " does not have");
-  }
+  if (const calligraphy_status status = check_given(from, name)) throw_refused(status);
   Struct result;
   return *copy_struct(from, &result);
 }

@@ -9,11 +9,15 @@
 
 namespace calligraphy::c {
 
-/// Whether a tick can be written. Its force is zero until then, for callers who do not look at the status of a call.
+/// Whether a tick can be written. Until then it has neither a force nor events, for callers who do not look at the status
+/// of a call.
 inline calligraphy_status begin_tick(calligraphy_tick* tick) noexcept {
   const calligraphy_status status = check_size(tick, "calligraphy_tick");
-  if (status == CALLIGRAPHY_OK) std::fill_n(tick->force, 3, 0.0);
-  return status;
+  if (status != CALLIGRAPHY_OK) return status;
+  std::fill_n(tick->force, 3, 0.0);
+  std::fill_n(tick->page_force, 3, 0.0);
+  tick->events = 0;
+  return CALLIGRAPHY_OK;
 }
 
 /// Fills all members of a tick but its size.

@@ -36,7 +36,7 @@ PageLayout workspace_layout(const Capabilities& device, const MotionMapping& map
 std::vector<PracticePage> lay_out(std::span<const Character> characters, const PageLayout& layout) {
   require_above_zero("page layout: width", layout.width, "m");
   require_above_zero("page layout: height", layout.height, "m");
-  require_above_zero("page layout: em", layout.em, "m");
+  require_within("page layout: em", layout.em, "m", Placement::min_em, Placement::max_em);
   require_not_negative("page layout: gap", layout.gap, "m");
   const double pitch = layout.em + layout.gap;
   const double columns_that_fit = std::floor((layout.width - layout.gap) / pitch);

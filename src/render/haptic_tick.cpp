@@ -14,7 +14,7 @@ std::string way_text(const Point& way) {
                                      "to the left",  "to the lower left",  "straight down", "to the lower right"};
   const double eighths = std::atan2(way.y(), way.x()) / (0.25 * std::numbers::pi);
   const auto direction = static_cast<std::size_t>(std::lround(eighths) + 8) % directions.size();
-  const long millimetres = std::max(1L, std::lround(1000.0 * way.norm()));
+  const long millimetres = std::max(1L, std::lround(std::min(1000.0 * way.norm(), 1e9)));
   return std::to_string(millimetres) + " mm " + directions[direction];
 }
 

@@ -18,7 +18,7 @@ void require_valid(const PlacedCharacter& placed, std::size_t index) {
   if (!problems.empty()) {
     throw ValueError(place + "stroke " + std::to_string(problems[0].stroke) + ": " + problems[0].what);
   }
-  require_above_zero(place + "em", placed.placement.em, "m");
+  require_within(place + "em", placed.placement.em, "m", Placement::min_em, Placement::max_em);
   if (!placed.placement.origin.allFinite()) throw ValueError(place + "its origin is not finite");
   const Eigen::AlignedBox2d box = bounding_box(placed);
   constexpr double most = PenSensor::max_coordinate;

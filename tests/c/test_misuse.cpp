@@ -53,6 +53,11 @@ struct Everything {
   }
 };
 
+std::vector<std::pair<std::string, void*>> handles_of(const Everything& all) {
+  return {{"set", all.set.get()},           {"page", all.page.get()},   {"device", all.device.get()},
+          {"renderer", all.renderer.get()}, {"servo", all.servo.get()}, {"match", all.match.get()}};
+}
+
 /// A call with a handle of a kind; every function that takes one occurs.
 struct HandleCall {
   const char* function;
@@ -153,12 +158,8 @@ void check(const std::vector<BadCall>& calls) {
 
 TEST_CASE("a handle that is null, was freed or is of another kind is refused by every function") {
   Everything all;
-  const std::vector<std::pair<std::string, void*>> handles = {
-      {"set", all.set.get()},           {"page", all.page.get()},   {"device", all.device.get()},
-      {"renderer", all.renderer.get()}, {"servo", all.servo.get()}, {"match", all.match.get()}};
-  auto freed = page_of("永");
-  void* const freed_handle = freed.get();
-  freed.reset();
+  const auto handles = handles_of(all);
+  const auto freed = handles_of(Everything());
   int elsewhere = 0;
   for (const HandleCall& one : handle_calls(all)) {
     CAPTURE(one.function, one.kind);
@@ -170,15 +171,20 @@ TEST_CASE("a handle that is null, was freed or is of another kind is refused by 
       CHECK(error_says(std::string(one.kind) + " = 0x"));
       CHECK(error_says(": a handle of a " + kind));
     }
-    CHECK(one.call(freed_handle) == CALLIGRAPHY_INVALID_HANDLE);
+    for (const auto& [kind, handle] : freed) {
+      CHECK(one.call(handle) == CALLIGRAPHY_INVALID_HANDLE);
+      CHECK(error_says("no handle, or it was freed"));
+    }
     CHECK(one.call(&elsewhere) == CALLIGRAPHY_INVALID_HANDLE);  // of another library
     for (std::uintptr_t bits = 1; bits < 1'000'000'007; bits = bits * 7 + 3) {
       CHECK(one.call(reinterpret_cast<void*>(~bits)) == CALLIGRAPHY_INVALID_HANDLE);
     }
   }
   CHECK(calligraphy_free(&elsewhere) == CALLIGRAPHY_INVALID_HANDLE);
-  CHECK(calligraphy_free(freed_handle) == CALLIGRAPHY_INVALID_HANDLE);
-  CHECK(error_says("freed already"));
+  for (const auto& [kind, handle] : freed) {
+    CHECK(calligraphy_free(handle) == CALLIGRAPHY_INVALID_HANDLE);
+    CHECK(error_says("freed already"));
+  }
   CHECK(calligraphy_free(nullptr) == CALLIGRAPHY_OK);
 }
 
@@ -280,6 +286,20 @@ TEST_CASE("a struct of the wrong size is refused, and one of a newer version tak
   layout.later = 1.0;
   CHECK(calligraphy_page_lay_out(all.set.get(), "永", &layout.layout, nullptr, &page) == CALLIGRAPHY_INVALID_VALUE);
   CHECK(error_says("layout: it sets members that version 0.2.0 does not have"));
+  struct {
+    calligraphy_device_state state;
+    double later;
+  } sample = {all.state, 0.0};
+  sample.state.size = sizeof sample;
+  for (const auto& give : std::vector<std::function<calligraphy_status()>>{
+           [&] { return calligraphy_renderer_update(all.renderer.get(), &sample.state, &all.tick); },
+           [&] { return calligraphy_device_supply(all.host.get(), &sample.state); }}) {
+    sample.later = 0.0;
+    CHECK(give() == CALLIGRAPHY_OK);
+    sample.later = 1.0;
+    CHECK(give() == CALLIGRAPHY_INVALID_VALUE);
+    CHECK(error_says("device_state: it sets members that version 0.2.0 does not have"));
+  }
 }
 
 TEST_CASE("a null pointer, a wrong index and a number that is none are refused by name") {

@@ -331,6 +331,7 @@ TEST_CASE("a tick that fails has no force, whatever it had before") {
     REQUIRE(calligraphy_renderer_update(renderer.get(), &state, &tick) == CALLIGRAPHY_OK);
   }
   REQUIRE(tick.force[2] > 0.5);
+  tick.events = CALLIGRAPHY_CONTACT;
   SECTION("because the renderer is none") {
     CHECK(calligraphy_renderer_update(nullptr, &state, &tick) == CALLIGRAPHY_INVALID_HANDLE);
   }
@@ -338,6 +339,37 @@ TEST_CASE("a tick that fails has no force, whatever it had before") {
     CHECK(calligraphy_renderer_update(renderer.get(), nullptr, &tick) == CALLIGRAPHY_INVALID_VALUE);
   }
   CHECK(tick.force[2] == 0.0);
+  CHECK(tick.page_force[2] == 0.0);
+  CHECK(tick.events == 0);
+}
+
+TEST_CASE("every member of a sample arrives") {
+  const auto page = page_of("永");
+  auto capabilities = profile();
+  const auto options = options_for(capabilities, CALLIGRAPHY_PRESET_EVERYTHING);
+  const auto renderer = renderer_of(page.get(), capabilities, &options);
+  const PracticePage in_cpp = page_in_cpp(U"永");
+  HapticRenderer expected(in_cpp.characters, upright_page(in_cpp.width, in_cpp.height), device_profile("desktop"),
+                          RendererOptions::everything(device_profile("desktop"), 1.0));
+  Random random(3);
+  auto tick = sized<calligraphy_tick>();
+  auto state = sized<calligraphy_device_state>();
+  for (int i = 0; i < 1000; ++i) {
+    DeviceState sample;
+    sample.time = state.time = 1e-3 * i;
+    sample.position = {random.between(-0.02, 0.02), random.between(-0.02, 0.02), random.between(-3e-3, 1e-3)};
+    sample.velocity = {random.between(-0.1, 0.1), random.between(-0.1, 0.1), random.between(-0.1, 0.1)};
+    sample.force = {random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(0.0, 2.0)};
+    sample.force_settling = state.force_settling = random.between(0.0, 2e-3);
+    std::memcpy(state.position, sample.position.data(), sizeof state.position);
+    std::memcpy(state.velocity, sample.velocity.data(), sizeof state.velocity);
+    std::memcpy(state.force, sample.force.data(), sizeof state.force);
+    state.has_velocity = state.has_force = 1;
+    expected.update(sample);
+    REQUIRE(calligraphy_renderer_update(renderer.get(), &state, &tick) == CALLIGRAPHY_OK);
+    REQUIRE(same(expected.last(), tick));
+  }
+  CHECK(tick.energy_given != 0.0);
 }
 
 TEST_CASE("a servo drives a device of the program's own") {
@@ -373,6 +405,10 @@ TEST_CASE("a servo drives a device of the program's own") {
     step(true);
     largest_step = std::max(largest_step, std::abs(tick.force[2] - last));
     last = tick.force[2];
+    if (tick.events != 0) {
+      step(false);
+      CHECK(tick.events == 0);  // nothing is told twice
+    }
   }
   CHECK(servo_state.phase == CALLIGRAPHY_SERVO_RUNNING);
   CHECK(tick.force[2] > 0.5);
@@ -389,7 +425,26 @@ TEST_CASE("a servo drives a device of the program's own") {
     CHECK(tick.force[2] == 0.0);
     CHECK(tick.page_force[2] == 0.0);
     CHECK(servo_state.fault == std::string("silent"));
-    CHECK(events == 0);  // nothing is told twice
+    CHECK(events == 0);
+  }
+  SECTION("and takes the force away when samples stay out after one that told of warm motors") {
+    state.status = CALLIGRAPHY_DEVICE_WARM_MOTORS;
+    step(true);
+    CHECK(tick.force[2] > 0.5);
+    for (int i = 0; i < 20; ++i) step(false);
+    CHECK(tick.force[2] == 0.0);
+    CHECK(servo_state.fault == std::string("silent"));
+  }
+  SECTION("and says that a sample is bad") {
+    state.position[0] = not_a_number;
+    for (int i = 0; i < 20; ++i) step(true);
+    CHECK(tick.status == CALLIGRAPHY_TICK_BAD_SAMPLE);
+    CHECK(tick.force[2] == 0.0);
+  }
+  SECTION("and counts the steps that were missed") {
+    now += 3;
+    step(true);
+    CHECK(servo_state.missed == 3);
   }
   SECTION("and ramps the force up in the beginning") {
     REQUIRE(calligraphy_renderer_restart(renderer.get()) == CALLIGRAPHY_OK);
@@ -424,6 +479,56 @@ TEST_CASE("a servo drives a device of the program's own") {
   }
 }
 
+TEST_CASE("the force for a device of the program's own is one that the device can output") {
+  const auto page = page_of("永");
+  auto capabilities = profile("omni");
+  capabilities.force_step = 0.25;
+  const auto renderer = renderer_of(page.get(), capabilities);
+  calligraphy_device* device_handle = nullptr;
+  REQUIRE(calligraphy_host_device_create(&capabilities, &device_handle) == CALLIGRAPHY_OK);
+  const Owned<calligraphy_device> device(device_handle);
+  calligraphy_servo* handle = nullptr;
+  REQUIRE(calligraphy_servo_create(device.get(), renderer.get(), &handle) == CALLIGRAPHY_OK);
+  const Owned<calligraphy_servo> servo(handle);
+  auto state = sized<calligraphy_device_state>();
+  auto tick = sized<calligraphy_tick>();
+  for (int i = 0; i < 1000; ++i) {
+    state.time = 1e-3 * i;
+    state.position[2] = std::max(1e-3 - 1e-5 * i, -4e-3);
+    REQUIRE(calligraphy_device_supply(device.get(), &state) == CALLIGRAPHY_OK);
+    REQUIRE(calligraphy_servo_step(servo.get(), state.time, &tick) == CALLIGRAPHY_OK);
+    REQUIRE(tick.force[2] == 0.25 * std::round(tick.force[2] / 0.25));
+  }
+  CHECK(tick.force[2] >= 0.5);
+}
+
+TEST_CASE("a servo of a slow device waits for a sample for two of its periods") {
+  const auto page = page_of("永");
+  auto capabilities = profile("omni");
+  capabilities.update_rate = 125.0;
+  const auto renderer = renderer_of(page.get(), capabilities);
+  calligraphy_device* device_handle = nullptr;
+  REQUIRE(calligraphy_host_device_create(&capabilities, &device_handle) == CALLIGRAPHY_OK);
+  const Owned<calligraphy_device> device(device_handle);
+  calligraphy_servo* handle = nullptr;
+  REQUIRE(calligraphy_servo_create(device.get(), renderer.get(), &handle) == CALLIGRAPHY_OK);
+  const Owned<calligraphy_servo> servo(handle);
+  auto state = sized<calligraphy_device_state>();
+  auto tick = sized<calligraphy_tick>();
+  auto servo_state = sized<calligraphy_servo_state>();
+  for (int i = 0; i < 250; ++i) {
+    state.time = 8e-3 * i;
+    state.position[2] = std::max(1e-3 - 4e-5 * i, -4e-3);
+    if (i < 240) REQUIRE(calligraphy_device_supply(device.get(), &state) == CALLIGRAPHY_OK);
+    REQUIRE(calligraphy_servo_step(servo.get(), state.time, &tick) == CALLIGRAPHY_OK);
+    REQUIRE(calligraphy_servo_read_state(servo.get(), &servo_state) == CALLIGRAPHY_OK);
+    if (i == 239 || i == 241) CHECK(servo_state.phase == CALLIGRAPHY_SERVO_RUNNING);
+    if (i == 241) CHECK(tick.force[2] > 0.1);
+  }
+  CHECK(tick.force[2] == 0.0);
+  CHECK(servo_state.fault == std::string("silent"));
+}
+
 TEST_CASE("a hint has the words of C++") {
   auto tick = sized<calligraphy_tick>();
   tick.hint = CALLIGRAPHY_HINT_TOO_FAR;
@@ -431,10 +536,16 @@ TEST_CASE("a hint has the words of C++") {
   char text[128];
   REQUIRE(calligraphy_hint_text(&tick, text, sizeof text) == CALLIGRAPHY_OK);
   CHECK(text == hint_text(WritingHint::too_far, {-0.012, 0.0}));
+  CHECK(calligraphy_hint_text(&tick, text, std::strlen(text)) == CALLIGRAPHY_TOO_SMALL);
+  CHECK(calligraphy_hint_text(&tick, text, std::strlen(text) + 1) == CALLIGRAPHY_OK);
   char small[8] = "before";
   CHECK(calligraphy_hint_text(&tick, small, sizeof small) == CALLIGRAPHY_TOO_SMALL);
   CHECK(small == std::string("before"));
   tick.hint = CALLIGRAPHY_HINT_NONE;
   REQUIRE(calligraphy_hint_text(&tick, text, 1) == CALLIGRAPHY_OK);
   CHECK(text == std::string());
+  tick.hint = CALLIGRAPHY_HINT_AT_END;
+  tick.to_start[0] = 1e300;
+  REQUIRE(calligraphy_hint_text(&tick, text, sizeof text) == CALLIGRAPHY_OK);
+  CHECK(text == std::string("at the stroke's end: the start is 1000000000 mm to the right"));
 }

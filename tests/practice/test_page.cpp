@@ -90,5 +90,7 @@ TEST_CASE("a layout that cannot hold a character is rejected", "[practice]") {
   SECTION("a height that is not a number") { layout.height = std::numeric_limits<double>::quiet_NaN(); }
   SECTION("an infinite gap") { layout.gap = std::numeric_limits<double>::infinity(); }
   SECTION("an em of zero") { layout.em = 0.0; }
+  SECTION("an em whose strokes have lengths near the smallest numbers") { layout = {5e-324, 5e-324, 5e-324, 0.0}; }
+  SECTION("an em whose strokes have no finite length") { layout = {1e200, 1e200, 1e200, 0.0}; }
   CHECK_THROWS_AS(lay_out(one, layout), ValueError);
 }

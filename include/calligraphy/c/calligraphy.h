@@ -28,7 +28,7 @@ extern "C" {
 // Handles are opaque. Whoever creates one frees it with calligraphy_free(), in any order: what a handle was made from
 // may be freed before it, though not while another thread is in a call with it. A handle that was freed, is null or is
 // of another kind is refused, not followed. One handle is used by one thread at a time, except where a comment says
-// otherwise.
+// otherwise; who uses a servo also uses its device and its renderer.
 //
 // Every struct begins with its size, which the caller sets: `calligraphy_tick tick = {sizeof tick};`. A size that is
 // not that of the variable lets the library write beyond it. So a struct can grow at its end: a newer library takes
@@ -37,8 +37,12 @@ extern "C" {
 // means.
 //
 // Functions return a status. On failure they do nothing else, and calligraphy_last_error() says what was wrong with
-// which value. No function throws or ends the program; none is called back. Where an optional pointer is null, nothing
-// is read from it or written to it.
+// which value. No function throws or ends the program, except that reading a set from a file ends it if someone has
+// shortened the file since it was opened; none is called back. Where an optional pointer is null, nothing is read from
+// it or written to it.
+//
+// Where a library was loaded at run time, by dlopen(), the first step or error in a thread takes memory for that thread,
+// unless calligraphy_last_error() was called in it before.
 
 /// Whether a function did what it says.
 typedef enum calligraphy_status {
@@ -295,7 +299,8 @@ CALLIGRAPHY_API calligraphy_status calligraphy_device_write(calligraphy_device* 
 CALLIGRAPHY_API calligraphy_status calligraphy_host_device_create(const calligraphy_capabilities* capabilities,
                                                                   calligraphy_device** device);
 
-/// The sample for the next step of a servo; without a new one that step has a stale sample. Only for a host device.
+/// The sample for the next step of a servo; without a new one that step has a stale sample, or again what the last one
+/// said of a fault. Only for a host device.
 CALLIGRAPHY_API calligraphy_status calligraphy_device_supply(calligraphy_device* device,
                                                              const calligraphy_device_state* state);
 
@@ -545,14 +550,16 @@ typedef struct calligraphy_servo_state {
 } calligraphy_servo_state;
 
 /// A servo loop of a device and a renderer, at the renderer's rate. Both may be freed before it. While it is used, give
-/// samples to the renderer by it alone.
+/// samples to the renderer by it alone. The force ramps down after 4 ms without a sample; below 500 Hz, after two
+/// periods.
 CALLIGRAPHY_API calligraphy_status calligraphy_servo_create(calligraphy_device* device, calligraphy_renderer* renderer,
                                                             calligraphy_servo** servo);
 
 /// One step at the time `now` of a clock that does not run backwards [s]: reads the device, updates the renderer and
 /// writes the force, which `tick` has; otherwise `tick` is the renderer's result. In a step without a good sample that
-/// is the last one, with a status and without events. On failure the tick's force is zero. Neither allocates, locks nor
-/// logs. A null `tick` is not written. Advance a simulated device after each step by the same time.
+/// is the last one, with a status and without events. On failure the tick's force is zero, and the device's unchanged.
+/// Neither allocates, locks nor logs. A null `tick` is not written. Advance a simulated device after each step by the
+/// same time.
 CALLIGRAPHY_API calligraphy_status calligraphy_servo_step(calligraphy_servo* servo, double now, calligraphy_tick* tick);
 
 /// From the next step on, ramps the force down to zero and keeps it there.

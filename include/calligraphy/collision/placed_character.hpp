@@ -13,7 +13,10 @@ namespace calligraphy {
 /// Maps em coordinates to metres: page point = origin + em * point.
 struct Placement {
   Point origin = Point::Zero();  ///< lower left corner of the em square on the page [m]
-  double em = 0.04;              ///< edge of the em square [m]
+  double em = 0.04;              ///< edge of the em square, within min_em and max_em [m]
+
+  static constexpr double min_em = 1e-6;  ///< [m]
+  static constexpr double max_em = 1e3;   ///< [m]
 
   /// From em coordinates [em] to the page [m].
   Point to_page(const Point& point) const noexcept { return origin + em * point; }
