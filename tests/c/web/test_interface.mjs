@@ -47,6 +47,8 @@ test("structs are written and read by member", () => {
   assert.throws(() => { another.scale = 4; }, RangeError);
   const servo = library.struct("servo_state", { ticks: 5, fault: "unplugged" });
   assert.deepEqual(library.struct("servo_state", servo.values()).values(), servo.values());
+  assert.equal(library.struct("device_state", { has_velocity: true }).has_velocity, 1);
+  assert.deepEqual(Object.keys(servo), []);
   assert.throws(() => { mapping.ofset = 1; }, TypeError);
   assert.throws(() => library.struct("map"), /no struct is named map/);
   renamed.name = "n";
@@ -171,6 +173,8 @@ test("strokes are matched", () => {
   assert.equal(remarks[0].kind, constants.REMARK_ORDER);
   const withPressure = [across, down].map((path) => path.map(([x, y]) => [x, y, 0.5]));
   assert.deepEqual(library.match(cross, 0, withPressure).remarks, []);
+  const nothing = library.match_strokes(cross, 0, [], null, 0, constants.TOLERANCE_NORMAL);
+  assert.equal(library.match_remark_count(nothing), 2);  // both strokes are missing
   refuses(() => library.match(cross, 3, [down]), constants.INVALID_VALUE, /character = 3/);
 });
 
