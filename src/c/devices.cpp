@@ -166,7 +166,7 @@ calligraphy_status calligraphy_device_advance(calligraphy_device* device, double
 calligraphy_status calligraphy_device_read(calligraphy_device* device, calligraphy_device_state* state) {
   HapticDevice* const found = find_own_device(device);
   if (!found) return CALLIGRAPHY_INVALID_HANDLE;
-  if (const calligraphy_status status = check_given(state, "calligraphy_device_state")) return status;
+  if (const calligraphy_status status = check_size(state, "calligraphy_device_state")) return status;
   put_struct(state, to_c(found->read()));
   return CALLIGRAPHY_OK;
 }

@@ -300,6 +300,8 @@ TEST_CASE("a struct of the wrong size is refused, and one of a newer version tak
     CHECK(give() == CALLIGRAPHY_INVALID_VALUE);
     CHECK(error_says("device_state: it sets members that version 0.2.0 does not have"));
   }
+  CHECK(calligraphy_device_read(all.device.get(), &sample.state) == CALLIGRAPHY_OK);  // a result
+  CHECK(sample.later == 0.0);
 }
 
 TEST_CASE("a null pointer, a wrong index and a number that is none are refused by name") {
