@@ -27,7 +27,7 @@ class Struct {}  // of which each struct of the interface is a class
 
 const ranges = {
   Int32: [-(2 ** 31), 2 ** 31 - 1], Uint32: [0, 2 ** 32 - 1], BigUint64: [0, Number.MAX_SAFE_INTEGER],
-  handle: [0, 2 ** 32 - 1],
+  Uint8: [0, 255], handle: [0, 2 ** 32 - 1],
 };
 
 /** Refuses what is no number of this type; true and false are 1 and 0. */
@@ -46,8 +46,11 @@ function checked(type, value, refuse) {
  * match()
  */
 export async function load(binary) {
+  if (!(binary === undefined || ArrayBuffer.isView(binary) || binary instanceof ArrayBuffer)) {
+    throw new TypeError("load: expected the bytes of calligraphy.wasm, or nothing");
+  }
   const module = await createModule(binary ? { wasmBinary: binary } : {});
-  const classes = Object.fromEntries(Object.keys(structs).map((name) => [name, structClass(name)]));
+  const classes = new Map(Object.keys(structs).map((name) => [name, structClass(name)]));
   let whole;  // see view()
   const result = allocate(4);  // to which a function writes by its last parameter
   const library = { struct, discard, text, polyline, hint, match };
@@ -82,8 +85,12 @@ export async function load(binary) {
    * @returns {object} with a function values(), which copies all members; discard() frees it
    */
   function struct(name, values = {}) {
-    if (!classes[name]) throw new TypeError(`no struct is named ${name}`);
-    const made = Object.preventExtensions(new classes[name]());
+    const Kind = classes.get(name);
+    if (!Kind) throw new TypeError(`no struct is named ${name}`);
+    if (values instanceof Struct && !(values instanceof Kind)) {
+      throw new TypeError(`a ${Kind.name} was given a ${values.constructor.name}`);
+    }
+    const made = Object.preventExtensions(new Kind());
     try {
       return Object.assign(made, values instanceof Struct ? values.values() : values);
     } catch (error) {
@@ -117,7 +124,7 @@ export async function load(binary) {
   function discard(made) {
     if (!(made instanceof Struct && made.address > 0)) throw new TypeError("discard: no struct, or it was discarded");
     module._free(made.address);
-    made.address = -Infinity;  // where nothing is read or written
+    made.address = 0;
   }
 
   /**
@@ -151,13 +158,17 @@ export async function load(binary) {
 
   /**
    * Which stroke each pen-down wrote.
-   * @param {number[][][]} paths points [x, y] of each pen-down [m, page]
+   * @param {(number[][] | Float64Array)[]} paths of each pen-down: points [x, y], or x and y of each point [m, page]
    * @param {number} [tolerance] such as constants.TOLERANCE_LENIENT
    * @returns {{drawn: object[], remarks: object[]}} members of the structs; a remark has a `reason`
    */
   function match(page, character, paths, tolerance = constants.TOLERANCE_NORMAL) {
-    const points = paths.flatMap((path) => path.flatMap(([x, y]) => [x, y]));
-    const sizes = paths.map((path) => path.length);
+    const isPath = (path) => path instanceof Float64Array || (Array.isArray(path) && path.every(Array.isArray));
+    if (!(Array.isArray(paths) && paths.every(isPath))) {
+      throw new TypeError("match: expected an array of pen-downs, each an array of points [x, y]");
+    }
+    const coordinates = paths.map((path) => (Array.isArray(path) ? path.flatMap(([x, y]) => [x, y]) : [...path]));
+    const points = coordinates.flat(), sizes = coordinates.map((path) => path.length / 2);
     const handle = library.match_strokes(page, character, points, sizes, paths.length, tolerance);
     const stroke = struct("drawn_stroke"), remark = struct("remark");
     try {
@@ -178,48 +189,60 @@ export async function load(binary) {
     const refuse = (expected) => { throw new TypeError(`${name}: expected ${expected}`); };
     if (type === "char") {
       return {
-        get() { return text(memory(this.address + offset, count)); },
+        get() { return text(memory(place(this, offset), count)); },
         set(value) {
           const bytes = textBytes(value) ?? refuse("a text without zeros");
           if (bytes.length > count) refuse(`at most ${count - 1} bytes of UTF-8`);
-          memory(this.address + offset, count).set(bytes);
+          memory(place(this, offset), count).set(bytes);
         },
       };
     }
     if (count) {
-      const values = (made) => new (arrayOf(type))(module.HEAPU8.buffer, made.address + offset, count);
+      const values = (made) => new (arrayOf(type))(module.HEAPU8.buffer, place(made, offset), count);
       return {
         get() { return values(this); },
-        set(given) { values(this).set(given?.length === count ? given : refuse(`an array of ${count}`)); },
+        set(given) {
+          if (given?.length !== count) refuse(`an array of ${count}`);
+          values(this).set(Array.from(given, (value) => checked(type, value, refuse)));
+        },
       };
     }
     return {
-      get() { return Number(view()[`get${type}`](this.address + offset, true)); },
+      get() { return Number(view()[`get${type}`](place(this, offset), true)); },
       set(value) {
         const number = checked(type, value, refuse);
         if (offset === 0 && number !== this.size) refuse(`${this.size}, which cannot be changed`);
-        view()[`set${type}`](this.address + offset, type === "BigUint64" ? BigInt(number) : number, true);
+        view()[`set${type}`](place(this, offset), type === "BigUint64" ? BigInt(number) : number, true);
       },
     };
+  }
+
+  /** The address of a member. */
+  function place(made, offset) {
+    if (!(made.address > 0)) throw new TypeError(`this ${made.constructor.name} was discarded`);
+    return made.address + offset;
   }
 
   /** An argument as a number: the address of what is in memory, or of a copy. */
   function pass(name, parameters, values, i, copies) {
     const value = values[i], [parameter, type] = parameters[i];
     const refuse = (expected) => {
-      const given = Object(value) === value ? `of type ${value.constructor?.name}` : String(value);
+      const given = Object(value) === value ? `of type ${value.constructor?.name}`
+        : typeof value === "string" ? JSON.stringify(value) : String(value);
       throw new TypeError(`${name}: ${parameter} is ${given}, expected ${expected}`);
     };
     const isNumber = ["Float64", "Int32", "Uint32"].includes(type);
     if (value === null && !isNumber) return 0;
     if (isNumber || type === "handle") return checked(type, value, refuse);
     if (type.startsWith("struct ")) {
-      return value instanceof classes[type.slice(7)] && value.address > 0 ? value.address : refuse(`a ${type}`);
+      if (!(value instanceof classes.get(type.slice(7)))) refuse(`a ${type} of this library`);
+      return value.address > 0 ? value.address : refuse("one that was not discarded");
     }
     if (type === "text") return copy(textBytes(value) ?? refuse("a text without zeros"), copies);
     const [access, element] = type.split(" ");
     const ArrayType = arrayOf(element);
-    const array = access === "read" && Array.isArray(value) ? ArrayType.from(value) : value;
+    const array = access === "read" && Array.isArray(value)
+      ? ArrayType.from(value, (each) => checked(element, each, refuse)) : value;
     if (!(array instanceof ArrayType)) refuse(`a ${ArrayType.name}`);
     const least = leastLength(element, parameters, values, i);
     if (array.length < least) refuse(`at least ${least} elements, not ${array.length}`);
@@ -257,7 +280,7 @@ const arrayOf = (type) => globalThis[`${type}Array`];
 function leastLength(element, parameters, values, i) {
   const [[name], [next] = []] = parameters.slice(i), count = values[i + 1];
   if (next === "path_sizes") {
-    return 2 * Uint32Array.from(count ?? []).subarray(0, values[i + 2]).reduce((sum, size) => sum + size, 0);
+    return 2 * Array.from(count ?? []).slice(0, values[i + 2]).reduce((sum, size) => sum + size, 0);
   }
   if (["capacity", "size", "path_count"].includes(next)) return name === "points" ? 2 * count : count;
   return element === "Float64" ? 3 : 1;  // a position, a velocity or a force; or a number

@@ -38,11 +38,11 @@ PointerOptions pointer_options(const calligraphy_pointer_options* given, const M
 template <class Device>
 constexpr const char* kind_name = nullptr;
 template <>
-constexpr const char* kind_name<SimulatedDevice> = "a simulated device";
+constexpr const char* kind_name<SimulatedDevice> = "simulated";
 template <>
-constexpr const char* kind_name<PointerDevice> = "a pointer device";
+constexpr const char* kind_name<PointerDevice> = "pointer";
 template <>
-constexpr const char* kind_name<HostDevice> = "a host device";
+constexpr const char* kind_name<HostDevice> = "host";
 
 /// The device of this kind. Null, with the error refused, if there is none. Does not allocate.
 template <class Device>
@@ -52,7 +52,7 @@ Device* find_device(const calligraphy_device* handle) noexcept {
   if (!found) {
     refuse_handle(Kind::device, handle);
   } else if (!device) {
-    refuse(CALLIGRAPHY_INVALID_HANDLE, "device: expected %s", kind_name<Device>);
+    refuse(CALLIGRAPHY_INVALID_HANDLE, "device: expected one of calligraphy_%s_device_create()", kind_name<Device>);
   }
   return device;
 }
@@ -71,7 +71,7 @@ HapticDevice* find_own_device(const calligraphy_device* handle) noexcept {
   if (!found) {
     refuse_handle(Kind::device, handle);
   } else if (dynamic_cast<HostDevice*>(found->device.get())) {
-    refuse(CALLIGRAPHY_INVALID_HANDLE, "device: expected a simulated or a pointer device");
+    refuse(CALLIGRAPHY_INVALID_HANDLE, "device: expected another than one of calligraphy_host_device_create()");
   } else {
     return found->device.get();
   }

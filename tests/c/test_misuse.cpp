@@ -302,6 +302,7 @@ TEST_CASE("a struct of the wrong size is refused, and one of a newer version tak
   }
   CHECK(calligraphy_device_read(all.device.get(), &sample.state) == CALLIGRAPHY_OK);  // a result
   CHECK(sample.later == 0.0);
+  CHECK(sample.state.size == sizeof sample);
 }
 
 TEST_CASE("a null pointer, a wrong index and a number that is none are refused by name") {
@@ -399,27 +400,27 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
        [&] { return calligraphy_pointer_device_create(&all.capabilities, nullptr, nullptr, nullptr, &device); }},
       {"pointer", value, "rotation",
        [&] { return calligraphy_pointer_device_create(&all.capabilities, nullptr, nullptr, &bad_mapping, &device); }},
-      {"point", CALLIGRAPHY_INVALID_HANDLE, "expected a pointer device",
+      {"point", CALLIGRAPHY_INVALID_HANDLE, "expected one of calligraphy_pointer_device_create()",
        [&] { return calligraphy_device_move_pointer(all.device.get(), 0.0, 0.0, 0.5, 0); }},
       {"point", value, "nan", [&] { return calligraphy_device_move_pointer(all.pointer.get(), nan[1], 0.0, 0.5, 0); }},
       {"point", value, "pressure 1.5",
        [&] { return calligraphy_device_move_pointer(all.pointer.get(), 0.0, 0.0, 1.5, 0); }},
-      {"intend", CALLIGRAPHY_INVALID_HANDLE, "expected a simulated device",
+      {"intend", CALLIGRAPHY_INVALID_HANDLE, "expected one of calligraphy_simulated_device_create()",
        [&] { return calligraphy_device_intend(all.pointer.get(), good, nullptr); }},
       {"intend", value, "velocity = nan m/s", [&] { return calligraphy_device_intend(all.device.get(), good, nan); }},
       {"advance", value, "nan", [&] { return calligraphy_device_advance(all.device.get(), not_a_number); }},
-      {"advance", CALLIGRAPHY_INVALID_HANDLE, "expected a simulated device",
+      {"advance", CALLIGRAPHY_INVALID_HANDLE, "expected one of calligraphy_simulated_device_create()",
        [&] { return calligraphy_device_advance(all.pointer.get(), 1e-3); }},
       {"read", value, "calligraphy_device_state is null",
        [&] { return calligraphy_device_read(all.device.get(), nullptr); }},
       {"write", value, "force is null", [&] { return calligraphy_device_write(all.device.get(), nullptr); }},
       {"write", value, "must be finite: it counts as zero",
        [&] { return calligraphy_device_write(all.device.get(), nan); }},
-      {"read", CALLIGRAPHY_INVALID_HANDLE, "expected a simulated or a pointer device",
+      {"read", CALLIGRAPHY_INVALID_HANDLE, "expected another than one of calligraphy_host_device_create()",
        [&] { return calligraphy_device_read(all.host.get(), &all.state); }},
-      {"write", CALLIGRAPHY_INVALID_HANDLE, "expected a simulated or a pointer device",
+      {"write", CALLIGRAPHY_INVALID_HANDLE, "expected another than one of calligraphy_host_device_create()",
        [&] { return calligraphy_device_write(all.host.get(), good); }},
-      {"supply", CALLIGRAPHY_INVALID_HANDLE, "expected a host device",
+      {"supply", CALLIGRAPHY_INVALID_HANDLE, "expected one of calligraphy_host_device_create()",
        [&] { return calligraphy_device_supply(all.device.get(), &all.state); }},
       {"supply", value, "calligraphy_device_state is null",
        [&] { return calligraphy_device_supply(all.host.get(), nullptr); }},

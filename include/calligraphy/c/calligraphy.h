@@ -41,8 +41,8 @@ extern "C" {
 // shortened the file since it was opened; none is called back. Where an optional pointer is null, nothing is read from
 // it or written to it.
 //
-// Where a library was loaded at run time, by dlopen(), the first step or error in a thread takes memory for that thread,
-// unless calligraphy_last_error() was called in it before.
+// Where the library was loaded at run time, by dlopen(), the first step or error in a thread takes memory for that
+// thread, unless calligraphy_last_error() was called in it before.
 
 /// Whether a function did what it says.
 typedef enum calligraphy_status {
@@ -447,7 +447,7 @@ typedef enum calligraphy_event {
   CALLIGRAPHY_LIFT = 2,                 ///< the pen left the paper
   CALLIGRAPHY_STROKE_STARTED = 4,       ///< the first stretch of the active stroke was written
   CALLIGRAPHY_FEATURE_PASSED = 8,       ///< a feature point of the active stroke was passed
-  CALLIGRAPHY_STROKE_FINISHED = 16,     ///< the active stroke was written to its end
+  CALLIGRAPHY_STROKE_FINISHED = 16,     ///< a stroke was written to its end; the tick's `stroke` is already the next
   CALLIGRAPHY_STROKE_ABANDONED = 32,    ///< left before its end; its trace is to be cleared
   CALLIGRAPHY_CHARACTER_FINISHED = 64,  ///< its last stroke was finished
   CALLIGRAPHY_PAGE_FINISHED = 128       ///< its last character was finished
@@ -456,20 +456,20 @@ typedef enum calligraphy_event {
 /// Whether the sample of a tick was usable.
 typedef enum calligraphy_tick_status {
   CALLIGRAPHY_TICK_OK = 0,           ///< a fresh sample
-  CALLIGRAPHY_TICK_STALE = 1,        ///< the sample before again: the force is held, then ramps down to zero
+  CALLIGRAPHY_TICK_STALE = 1,        ///< the sample said so: the force is held, then ramps down to zero
   CALLIGRAPHY_TICK_BAD_SAMPLE = 2,   ///< not finite, or too far away: the force ramps down to zero
   CALLIGRAPHY_TICK_DEVICE_FAULT = 3  ///< reported by the device: the force ramps down to zero
 } calligraphy_tick_status;
 
 /// Why a pen on the paper is not guided.
 typedef enum calligraphy_hint {
-  CALLIGRAPHY_HINT_NONE = 0,             ///< it is guided, not on the paper, or all is written
+  CALLIGRAPHY_HINT_NONE = 0,             ///< it is guided or not on the paper
   CALLIGRAPHY_HINT_WRITE = 1,            ///< at the start of the stroke that is due: write on
   CALLIGRAPHY_HINT_TOO_FAR = 2,          ///< too far from the start
   CALLIGRAPHY_HINT_AT_END = 3,           ///< at the stroke's end
   CALLIGRAPHY_HINT_IN_MIDDLE = 4,        ///< in the middle of the stroke
   CALLIGRAPHY_HINT_WRONG_DIRECTION = 5,  ///< at the start, but moving another way
-  CALLIGRAPHY_HINT_ANOTHER_STROKE = 6,   ///< at the start of another stroke
+  CALLIGRAPHY_HINT_ANOTHER_STROKE = 6,   ///< moving as if it began another stroke
   CALLIGRAPHY_HINT_OFF_STROKE = 7,       ///< writing, but too far from the stroke or pulled aside
   CALLIGRAPHY_HINT_LIFT_FIRST = 8        ///< lift the pen first: the stroke before has just been finished
 } calligraphy_hint;

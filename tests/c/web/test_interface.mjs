@@ -22,6 +22,8 @@ const mappingOnDesk = library.struct("mapping");
 library.page_mapping(page, constants.DESK, 1, mappingOnDesk);
 const device = library.pointer_device_create(profile, null, null, mappingOnDesk);
 
+test("what is loaded is bytes", () => assert.rejects(load("calligraphy.wasm"), /load: expected the bytes/));
+
 test("the version is a text", () => assert.match(library.version(), /^\d+\.\d+\.\d+$/));
 
 test("structs are written and read by member", () => {
@@ -38,13 +40,16 @@ test("structs are written and read by member", () => {
   assert.throws(() => { mapping.offset = [1, 2]; }, /offset: expected an array of 3/);
   assert.throws(() => { mapping.scale = "2"; }, /scale: expected a number/);
   assert.throws(() => { mapping.size = 4096; }, /size: expected 112, which cannot be changed/);
-  assert.throws(() => library.struct("mapping", profile), TypeError);
+  assert.throws(() => library.struct("mapping", profile), /a struct mapping was given a struct capabilities/);
+  assert.throws(() => { mapping.offset = [1, undefined, 3]; }, /offset: expected a number/);
   assert.throws(() => library.struct("tick", { status: 2 ** 32 }), /status: expected an integer/);
   const another = library.struct("mapping", mapping);
+  assert.deepEqual(another.values(), mapping.values());
   another.scale = 3;
   assert.equal(mapping.scale, 2);
   library.discard(another);
-  assert.throws(() => { another.scale = 4; }, RangeError);
+  assert.throws(() => { another.scale = 4; }, /this struct mapping was discarded/);
+  assert.throws(() => another.offset, /this struct mapping was discarded/);
   const servo = library.struct("servo_state", { ticks: 5, fault: "unplugged" });
   assert.deepEqual(library.struct("servo_state", servo.values()).values(), servo.values());
   assert.equal(library.struct("device_state", { has_velocity: true }).has_velocity, 1);
@@ -80,7 +85,6 @@ test("what no function could be given is refused before it is called", () => {
     [() => library.page_stroke(page, 0, 2 ** 31, stroke), /stroke is 2147483648, expected an integer/],
     [() => library.set_stroke_count(page, -1), /expected an integer from 0/],
     [() => library.page_stroke("page", 0, 0, stroke), /expected a handle/],
-    [() => library.page_mapping(page, constants.DESK, "1", mappingOnDesk), /scale is 1, expected a number/],
     [() => library.page_polyline(page, 0, 0, constants.PATH, 0, new Float32Array(8), 4), /expected a Float64Array/],
     [() => library.page_polyline(page, 0, 0, constants.PATH, 0, [0, 0], 1), /expected a Float64Array/],
     [() => library.page_polyline(page, 0, 0, constants.PATH, 0, new Float64Array(7), 4), /at least 8 elements, not 7/],
@@ -88,8 +92,14 @@ test("what no function could be given is refused before it is called", () => {
     [() => library.set_from_memory(new Uint8Array(4), 5, null), /at least 5 elements, not 4/],
     [() => library.match_strokes(page, 0, [0, 0, 1, 1], [2, 1], 2, 0), /points .* at least 6 elements, not 4/],
     [() => library.match_strokes(page, 0, [0, 0, 1, 1], [2], 2, 0), /path_sizes .* at least 2 elements, not 1/],
-    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [3, -1], 1, 0), /points .* at least 6 elements/],
-    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [-1], 1, 0), /points .* at least 8589934590 elements/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [3, -1], 2, 0), /path_sizes .* an integer from 0/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [3], 1, 0), /points .* at least 6 elements/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [-1], 1, 0), /path_sizes .* an integer from 0/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [1.5], 1, 0), /path_sizes .* an integer from 0/],
+    [() => library.match_strokes(page, 0, [0, "1", 1, 1], [2], 1, 0), /points .* a number/],
+    [() => library.match(page, 0, [[0.1, 0.1], [0.1, 0.2]]), /match: expected an array of pen-downs/],
+    [() => library.match(page, 0), /match: expected an array of pen-downs/],
+    [() => library.page_mapping(page, constants.DESK, "1", mappingOnDesk), /scale is "1", expected a number/],
     [() => library.page_lay_out(page, "永", null, new Int32Array(0)), /placed .* at least 1 elements/],
     [() => library.set_open("永\0"), /path is .*expected a text without zeros/],
     [() => library.page_mapping(page, constants.DESK, null, mappingOnDesk), /scale is null, expected a number/],
@@ -97,7 +107,8 @@ test("what no function could be given is refused before it is called", () => {
     [() => library.discard({ address: profile.address }), /discard: no struct/],
     [() => library.discard(null), /discard: no struct/],
     [() => { library.discard(info); library.discard(info); }, /it was discarded/],
-    [() => library.page_read_info(page, info), /expected a struct page_info/],
+    [() => library.page_read_info(page, info), /info is of type struct page_info, expected one that was not discarded/],
+    [() => library.struct("constructor"), /no struct is named constructor/],
   ];
   for (const [call, pattern] of refused) {
     assert.throws(call, (error) => error instanceof TypeError && pattern.test(error), `${call}`);
@@ -171,8 +182,12 @@ test("strokes are matched", () => {
   assert.equal(remarks.length, 1);
   assert.match(remarks[0].reason, /stroke 2 .* where stroke 1/);
   assert.equal(remarks[0].kind, constants.REMARK_ORDER);
+  const asPolylines = [across, down].map((path) => Float64Array.from(path.flat()));
+  assert.deepEqual(library.match(cross, 0, asPolylines).remarks, []);
   const withPressure = [across, down].map((path) => path.map(([x, y]) => [x, y, 0.5]));
   assert.deepEqual(library.match(cross, 0, withPressure).remarks, []);
+  const first = library.match_strokes(cross, 0, across.flat(), [2, 2], 1, constants.TOLERANCE_NORMAL);
+  assert.equal(library.match_remark_count(first), 1);
   const nothing = library.match_strokes(cross, 0, [], null, 0, constants.TOLERANCE_NORMAL);
   assert.equal(library.match_remark_count(nothing), 2);  // both strokes are missing
   refuses(() => library.match(cross, 3, [down]), constants.INVALID_VALUE, /character = 3/);
@@ -224,5 +239,6 @@ test("the block of docs/c.md guides a pen that begins where the first stroke doe
     for (let j = 0; j < 2; ++j) pictures.push(block.advance(1e6));
   }
   assert.ok(pictures.some(({ writes }) => writes));
+  assert.equal(pictures.filter(({ isFinished }) => isFinished).length, 1);
   assert.match(pictures.at(-1).hint, /^lift/);
 });
