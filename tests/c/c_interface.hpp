@@ -67,6 +67,18 @@ inline Owned<calligraphy_device> simulated_device(const calligraphy_capabilities
   return Owned<calligraphy_device>(result);
 }
 
+inline Owned<calligraphy_device> host_device(const calligraphy_capabilities& device) {
+  calligraphy_device* result = nullptr;
+  REQUIRE(calligraphy_host_device_create(&device, &result) == CALLIGRAPHY_OK);
+  return Owned<calligraphy_device>(result);
+}
+
+inline Owned<calligraphy_servo> servo_of(calligraphy_device* device, calligraphy_renderer* renderer) {
+  calligraphy_servo* result = nullptr;
+  REQUIRE(calligraphy_servo_create(device, renderer, &result) == CALLIGRAPHY_OK);
+  return Owned<calligraphy_servo>(result);
+}
+
 inline std::string last_error() { return calligraphy_last_error(); }
 
 /// Whether this is part of the last error.

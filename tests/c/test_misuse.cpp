@@ -27,8 +27,8 @@ struct Everything {
   calligraphy_renderer_options options = options_for(capabilities);
   Owned<calligraphy_renderer> renderer = renderer_of(page.get(), capabilities);
   Owned<calligraphy_device> device = simulated_device(capabilities);
-  Owned<calligraphy_device> pointer, host;
-  Owned<calligraphy_servo> servo;
+  Owned<calligraphy_device> host = host_device(capabilities), pointer;
+  Owned<calligraphy_servo> servo = servo_of(device.get(), renderer.get());
   Owned<calligraphy_match> match;
   calligraphy_mapping mapping = sized<calligraphy_mapping>();
   calligraphy_tick tick = sized<calligraphy_tick>();
@@ -40,12 +40,6 @@ struct Everything {
     REQUIRE(calligraphy_pointer_device_create(&capabilities, nullptr, nullptr, &mapping, &pointer_handle) ==
             CALLIGRAPHY_OK);
     pointer.reset(pointer_handle);
-    calligraphy_device* host_handle = nullptr;
-    REQUIRE(calligraphy_host_device_create(&capabilities, &host_handle) == CALLIGRAPHY_OK);
-    host.reset(host_handle);
-    calligraphy_servo* servo_handle = nullptr;
-    REQUIRE(calligraphy_servo_create(device.get(), renderer.get(), &servo_handle) == CALLIGRAPHY_OK);
-    servo.reset(servo_handle);
     calligraphy_match* match_handle = nullptr;
     REQUIRE(calligraphy_match_strokes(page.get(), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL,
                                       &match_handle) == CALLIGRAPHY_OK);

@@ -137,9 +137,7 @@ TEST_CASE("a servo in virtual time writes the forces of a servo in C++") {
   const auto page_in_c = page_of("永");
   auto renderer_in_c = renderer_of(page_in_c.get(), capabilities_in_c);
   auto device_in_c = simulated_device(capabilities_in_c, {start.x(), start.y(), start.z()});
-  calligraphy_servo* handle = nullptr;
-  REQUIRE(calligraphy_servo_create(device_in_c.get(), renderer_in_c.get(), &handle) == CALLIGRAPHY_OK);
-  Owned<calligraphy_servo> servo_in_c(handle);
+  auto servo_in_c = servo_of(device_in_c.get(), renderer_in_c.get());
 
   auto tick = sized<calligraphy_tick>();
   auto state = sized<calligraphy_device_state>();
@@ -234,9 +232,7 @@ TEST_CASE("a tick through the C interface does not allocate") {
   const auto options = options_for(capabilities, CALLIGRAPHY_PRESET_EVERYTHING);
   const auto renderer = renderer_of(page.get(), capabilities, &options);
   const auto device = simulated_device(capabilities);
-  calligraphy_servo* handle = nullptr;
-  REQUIRE(calligraphy_servo_create(device.get(), renderer.get(), &handle) == CALLIGRAPHY_OK);
-  const Owned<calligraphy_servo> servo(handle);
+  const auto servo = servo_of(device.get(), renderer.get());
   const PracticePage in_cpp = page_in_cpp(U"永");
   const MotionMapping upright = upright_page(in_cpp.width, in_cpp.height);
   const std::vector<Eigen::Vector3d> path = intended_path(in_cpp);
@@ -373,15 +369,10 @@ TEST_CASE("every member of a sample arrives") {
 }
 
 TEST_CASE("a servo drives a device of the program's own") {
-  const auto page = page_of("永");
   const auto capabilities = profile("omni");
-  const auto renderer = renderer_of(page.get(), capabilities);
-  calligraphy_device* device_handle = nullptr;
-  REQUIRE(calligraphy_host_device_create(&capabilities, &device_handle) == CALLIGRAPHY_OK);
-  const Owned<calligraphy_device> device(device_handle);
-  calligraphy_servo* handle = nullptr;
-  REQUIRE(calligraphy_servo_create(device.get(), renderer.get(), &handle) == CALLIGRAPHY_OK);
-  const Owned<calligraphy_servo> servo(handle);
+  const auto renderer = renderer_of(page_of("永").get(), capabilities);
+  const auto device = host_device(capabilities);
+  const auto servo = servo_of(device.get(), renderer.get());
 
   auto state = sized<calligraphy_device_state>();
   auto tick = sized<calligraphy_tick>();
@@ -448,9 +439,7 @@ TEST_CASE("a servo drives a device of the program's own") {
   }
   SECTION("and ramps the force up in the beginning") {
     REQUIRE(calligraphy_renderer_restart(renderer.get()) == CALLIGRAPHY_OK);
-    calligraphy_servo* again = nullptr;
-    REQUIRE(calligraphy_servo_create(device.get(), renderer.get(), &again) == CALLIGRAPHY_OK);
-    const Owned<calligraphy_servo> another(again);
+    const auto another = servo_of(device.get(), renderer.get());
     for (int i = 0; i < 100; ++i) {
       state.time = 1e-3 * now;
       REQUIRE(calligraphy_device_supply(device.get(), &state) == CALLIGRAPHY_OK);
@@ -480,16 +469,11 @@ TEST_CASE("a servo drives a device of the program's own") {
 }
 
 TEST_CASE("the force for a device of the program's own is one that the device can output") {
-  const auto page = page_of("永");
   auto capabilities = profile("omni");
   capabilities.force_step = 0.25;
-  const auto renderer = renderer_of(page.get(), capabilities);
-  calligraphy_device* device_handle = nullptr;
-  REQUIRE(calligraphy_host_device_create(&capabilities, &device_handle) == CALLIGRAPHY_OK);
-  const Owned<calligraphy_device> device(device_handle);
-  calligraphy_servo* handle = nullptr;
-  REQUIRE(calligraphy_servo_create(device.get(), renderer.get(), &handle) == CALLIGRAPHY_OK);
-  const Owned<calligraphy_servo> servo(handle);
+  const auto renderer = renderer_of(page_of("永").get(), capabilities);
+  const auto device = host_device(capabilities);
+  const auto servo = servo_of(device.get(), renderer.get());
   auto state = sized<calligraphy_device_state>();
   auto tick = sized<calligraphy_tick>();
   for (int i = 0; i < 1000; ++i) {
@@ -503,16 +487,11 @@ TEST_CASE("the force for a device of the program's own is one that the device ca
 }
 
 TEST_CASE("a servo of a slow device waits for a sample for two of its periods") {
-  const auto page = page_of("永");
   auto capabilities = profile("omni");
   capabilities.update_rate = 125.0;
-  const auto renderer = renderer_of(page.get(), capabilities);
-  calligraphy_device* device_handle = nullptr;
-  REQUIRE(calligraphy_host_device_create(&capabilities, &device_handle) == CALLIGRAPHY_OK);
-  const Owned<calligraphy_device> device(device_handle);
-  calligraphy_servo* handle = nullptr;
-  REQUIRE(calligraphy_servo_create(device.get(), renderer.get(), &handle) == CALLIGRAPHY_OK);
-  const Owned<calligraphy_servo> servo(handle);
+  const auto renderer = renderer_of(page_of("永").get(), capabilities);
+  const auto device = host_device(capabilities);
+  const auto servo = servo_of(device.get(), renderer.get());
   auto state = sized<calligraphy_device_state>();
   auto tick = sized<calligraphy_tick>();
   auto servo_state = sized<calligraphy_servo_state>();
