@@ -76,10 +76,12 @@ calligraphy_status calligraphy_renderer_clipped(const calligraphy_renderer* rend
 
 calligraphy_status calligraphy_renderer_update(calligraphy_renderer* renderer, const calligraphy_device_state* state,
                                                calligraphy_tick* tick) {
-  if (const calligraphy_status status = begin_tick(tick)) return status;
+  if (const calligraphy_status status = check_tick(tick)) return status;
   auto* const found = find<RendererObject>(renderer);
-  if (!found) return refuse_handle(Kind::renderer, renderer);
-  if (const calligraphy_status status = check_given(state, "calligraphy_device_state")) return status;
+  if (!found) return without_force(tick, refuse_handle(Kind::renderer, renderer));
+  if (const calligraphy_status status = check_given(state, "calligraphy_device_state")) {
+    return without_force(tick, status);
+  }
   found->renderer.update(state_of(state));
   write_tick(*found, tick);
   return CALLIGRAPHY_OK;

@@ -11,7 +11,7 @@ ServoOptions virtual_time(double rate) {
   ServoOptions options;
   options.rate = rate;
   options.timeout = std::max(options.timeout, 2.0 / rate);  // the least that a servo takes
-  options.work_clock = []() noexcept { return 0.0; };  // the program's time stands still during a step
+  options.work_clock = []() noexcept { return 0.0; };       // the program's time stands still during a step
   return options;
 }
 
@@ -30,7 +30,8 @@ void describe_gap(const ServoStatus& status, calligraphy_tick* tick) noexcept {
   switch (status.device) {
     case DeviceStatus::ok:
     case DeviceStatus::warm_motors:
-      tick->status = status.fault == DeviceFault::corrupted_frame ? CALLIGRAPHY_TICK_BAD_SAMPLE : CALLIGRAPHY_TICK_STALE;
+      tick->status =
+          status.fault == DeviceFault::corrupted_frame ? CALLIGRAPHY_TICK_BAD_SAMPLE : CALLIGRAPHY_TICK_STALE;
       break;
     case DeviceStatus::stale:
       tick->status = CALLIGRAPHY_TICK_STALE;
@@ -64,11 +65,13 @@ calligraphy_status calligraphy_servo_create(calligraphy_device* device, calligra
 
 calligraphy_status calligraphy_servo_step(calligraphy_servo* servo, double now, calligraphy_tick* tick) {
   if (tick) {
-    if (const calligraphy_status status = begin_tick(tick)) return status;
+    if (const calligraphy_status status = check_tick(tick)) return status;
   }
   auto* const found = find<ServoObject>(servo);
-  if (!found) return refuse_handle(Kind::servo, servo);
-  if (!std::isfinite(now)) return refuse(CALLIGRAPHY_INVALID_VALUE, "now = %g s, must be finite", now);
+  if (!found) return without_force(tick, refuse_handle(Kind::servo, servo));
+  if (!std::isfinite(now)) {
+    return without_force(tick, refuse(CALLIGRAPHY_INVALID_VALUE, "now = %g s, must be finite", now));
+  }
   found->has_updated = false;
   found->servo.step(now);
   if (!tick) return CALLIGRAPHY_OK;

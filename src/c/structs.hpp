@@ -43,9 +43,9 @@ Struct* copy_struct(const Struct* from, Struct* to) noexcept {
 template <class Struct>
 calligraphy_status check_given(const Struct* from, const char* name) noexcept {
   if (const calligraphy_status status = check_size(from, name)) return status;
+  if (from->size <= sizeof(Struct)) return CALLIGRAPHY_OK;
   const char* const bytes = reinterpret_cast<const char*>(from);
-  const bool is_known = std::all_of(bytes + std::min<std::size_t>(from->size, sizeof(Struct)), bytes + from->size,
-                                    [](char byte) { return byte == 0; });
+  const bool is_known = std::all_of(bytes + sizeof(Struct), bytes + from->size, [](char byte) { return byte == 0; });
   return is_known ? CALLIGRAPHY_OK
                   : refuse(CALLIGRAPHY_INVALID_VALUE, "%s: it sets members that version %s does not have", name,
                            calligraphy_version());

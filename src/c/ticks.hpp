@@ -9,15 +9,19 @@
 
 namespace calligraphy::c {
 
-/// Whether a tick can be written. Until then it has neither a force nor events, for callers who do not look at the status
-/// of a call.
-inline calligraphy_status begin_tick(calligraphy_tick* tick) noexcept {
-  const calligraphy_status status = check_size(tick, "calligraphy_tick");
-  if (status != CALLIGRAPHY_OK) return status;
+/// Whether a tick can be written.
+inline calligraphy_status check_tick(const calligraphy_tick* tick) noexcept {
+  return check_size(tick, "calligraphy_tick");
+}
+
+/// The status of a failure. The tick, unless it is null, then has neither a force nor events, for callers who do not
+/// look at the status.
+inline calligraphy_status without_force(calligraphy_tick* tick, calligraphy_status failure) noexcept {
+  if (!tick) return failure;
   std::fill_n(tick->force, 3, 0.0);
   std::fill_n(tick->page_force, 3, 0.0);
   tick->events = 0;
-  return CALLIGRAPHY_OK;
+  return failure;
 }
 
 /// Fills all members of a tick but its size.
