@@ -71,7 +71,8 @@ HapticDevice* find_own_device(const calligraphy_device* handle) noexcept {
   if (!found) {
     refuse_handle(Kind::device, handle);
   } else if (dynamic_cast<HostDevice*>(found->device.get())) {
-    refuse(CALLIGRAPHY_INVALID_HANDLE, "device: expected another than one of calligraphy_host_device_create()");
+    refuse(CALLIGRAPHY_INVALID_HANDLE,
+           "device: one of calligraphy_host_device_create() is read and written by the program");
   } else {
     return found->device.get();
   }

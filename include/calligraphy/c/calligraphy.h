@@ -456,14 +456,14 @@ typedef enum calligraphy_event {
 /// Whether the sample of a tick was usable.
 typedef enum calligraphy_tick_status {
   CALLIGRAPHY_TICK_OK = 0,           ///< a fresh sample
-  CALLIGRAPHY_TICK_STALE = 1,        ///< the sample said so: the force is held, then ramps down to zero
+  CALLIGRAPHY_TICK_STALE = 1,        ///< no new sample, as the device says: the force is held, then ramps down to zero
   CALLIGRAPHY_TICK_BAD_SAMPLE = 2,   ///< not finite, or too far away: the force ramps down to zero
   CALLIGRAPHY_TICK_DEVICE_FAULT = 3  ///< reported by the device: the force ramps down to zero
 } calligraphy_tick_status;
 
 /// Why a pen on the paper is not guided.
 typedef enum calligraphy_hint {
-  CALLIGRAPHY_HINT_NONE = 0,             ///< it is guided or not on the paper
+  CALLIGRAPHY_HINT_NONE = 0,             ///< it is guided, not on the paper, or back on it once all is written
   CALLIGRAPHY_HINT_WRITE = 1,            ///< at the start of the stroke that is due: write on
   CALLIGRAPHY_HINT_TOO_FAR = 2,          ///< too far from the start
   CALLIGRAPHY_HINT_AT_END = 3,           ///< at the stroke's end

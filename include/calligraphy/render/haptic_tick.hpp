@@ -17,7 +17,7 @@ enum class TickEvent : std::uint16_t {
   lift = 1 << 1,                ///< the pen left the paper
   stroke_started = 1 << 2,      ///< the first stretch of the active stroke was written: guidance begins
   feature_passed = 1 << 3,      ///< a feature point of the active stroke was passed
-  stroke_finished = 1 << 4,     ///< the active stroke was written to its end; the next one becomes active
+  stroke_finished = 1 << 4,     ///< a stroke was written to its end; `stroke` of this tick is already the next
   stroke_abandoned = 1 << 5,    ///< left before its end; its trace is to be cleared
   character_finished = 1 << 6,  ///< its last stroke was finished
   page_finished = 1 << 7        ///< its last character was finished
@@ -37,7 +37,7 @@ constexpr bool has_event(TickEvent events, TickEvent event) noexcept {
 /// Whether the sample of this tick was usable.
 enum class TickStatus : std::uint8_t {
   ok,           ///< a fresh sample
-  stale,        ///< the sample before again: the force is held for 4 ms, then ramps down to zero
+  stale,        ///< no new sample, as the device says: the force is held for 4 ms, then ramps down to zero
   bad_sample,   ///< not finite, or farther away than a pen can have moved: the force ramps down to zero
   device_fault  ///< reported by the device: the force ramps down to zero
 };
@@ -47,13 +47,13 @@ const char* to_string(TickStatus status) noexcept;
 
 /// Why a pen on the paper is not guided, for a display to show.
 enum class WritingHint : std::uint8_t {
-  none,             ///< it is guided in writing, not on the paper, or all is written
+  none,             ///< it is guided, not on the paper, or back on it once all is written
   write,            ///< at the start of the stroke that is due: write on
   too_far,          ///< too far from the start: `to_start` says where it is
   at_end,           ///< at the stroke's end
   in_middle,        ///< in the middle of the stroke
   wrong_direction,  ///< at the start, but moving another way
-  another_stroke,   ///< at the start of another stroke
+  another_stroke,   ///< moving as if it began another stroke
   off_stroke,       ///< writing, but too far from the stroke or pulled aside: `contact.closest` is where to return
   lift_first        ///< lift the pen first: the stroke before has just been finished
 };
