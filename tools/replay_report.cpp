@@ -7,14 +7,12 @@
 
 #include <calligraphy/base/text.hpp>
 
+#include "remark_json.hpp"
+
 namespace calligraphy::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr StrokeRemarkKind remark_kinds[] = {
-    StrokeRemarkKind::order,  StrokeRemarkKind::direction, StrokeRemarkKind::shape, StrokeRemarkKind::joined,
-    StrokeRemarkKind::broken, StrokeRemarkKind::missing,   StrokeRemarkKind::extra};
 
 /// Number of pen-downs, without taps that match no stroke.
 int strokes_drawn(const MatchResult& match) {
@@ -42,10 +40,11 @@ std::string direction_of(const MatchResult& match) {
 
 /// "1 joined, 2 missing"
 std::string others(const MatchResult& match) {
+  using Kind = StrokeRemarkKind;
   std::string text;
-  for (const StrokeRemarkKind kind : remark_kinds) {
+  for (const Kind kind : {Kind::shape, Kind::joined, Kind::broken, Kind::missing, Kind::extra}) {
     const int count = match.count(kind);
-    if (count == 0 || kind == StrokeRemarkKind::order || kind == StrokeRemarkKind::direction) continue;
+    if (count == 0) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_string(kind));
   }
   return text;
@@ -64,12 +63,7 @@ Json json_of(const Replayed& trace) {
                      {"distance_em", each.stroke_count > 0 ? Json(each.distance) : Json()}});
   }
   Json remarks = Json::array();
-  for (const StrokeRemark& remark : trace.match.remarks) {
-    remarks.push_back({{"kind", calligraphy::to_string(remark.kind)},
-                       {"pen_down", remark.path >= 0 ? Json(remark.path + 1) : Json()},
-                       {"stroke", remark.stroke >= 0 ? Json(remark.stroke + 1) : Json()},
-                       {"reason", remark.reason}});
-  }
+  for (const StrokeRemark& remark : trace.match.remarks) remarks.push_back(remark_json(remark));
   return {{"character", encode_utf8(trace.guided.character)},
           {"position", trace.position},
           {"set", trace.set},
@@ -77,6 +71,8 @@ Json json_of(const Replayed& trace) {
           {"strokes", trace.guided.stroke_count},
           {"order_mistakes", trace.match.count(StrokeRemarkKind::order)},
           {"direction_mistakes", trace.match.count(StrokeRemarkKind::direction)},
+          {"extra_pen_downs", trace.match.count(StrokeRemarkKind::extra)},
+          {"missing_strokes", trace.match.count(StrokeRemarkKind::missing)},
           {"drawn", drawn},
           {"remarks", remarks},
           {"strokes_completed", trace.guided.strokes_completed},

@@ -14,6 +14,7 @@
 #include <calligraphy/practice/mean_interval.hpp>
 
 #include "counted.hpp"
+#include "remark_json.hpp"
 
 namespace calligraphy::tools {
 namespace {
@@ -23,10 +24,22 @@ using Quantity = std::function<double(const Result&)>;
 
 constexpr double millimetres = 1e3;
 
+/// Of the results in which the quantity was measured; NaN if it was in none.
 double mean(const std::vector<Result>& results, std::size_t begin, std::size_t end, const Quantity& quantity) {
   double sum = 0.0;
-  for (std::size_t i = begin; i < end; ++i) sum += quantity(results[i]);
-  return sum / static_cast<double>(end - begin);
+  int count = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const double value = quantity(results[i]);
+    if (std::isnan(value)) continue;
+    sum += value;
+    ++count;
+  }
+  return sum / count;
+}
+
+/// "-" for what was not measured.
+std::string number(double value, int decimals) {
+  return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
 }
 
 /// Fewer independent pairs of runs vary too much to show an effect of force.
@@ -38,20 +51,9 @@ struct Pair {
   const Result* force;
 };
 
-/// "3.142"; "-" where no repetition completed a stroke, so that there is no error. [mm]
-std::string mean_error(const std::vector<Result>& results, std::size_t begin, std::size_t end,
-                       double CharacterScore::*error) {
-  double sum = 0.0;
-  int count = 0;
-  for (std::size_t i = begin; i < end; ++i) {
-    if (results[i].score.strokes_completed == 0) continue;
-    sum += results[i].score.*error * millimetres;
-    ++count;
-  }
-  return count > 0 ? fmt::format("{:.3f}", sum / count) : "-";
+bool is_complete(const Result& result) {
+  return result.score.strokes_completed >= result.score.stroke_count && result.score.strokes_written > 0;
 }
-
-bool is_complete(const Result& result) { return result.score.strokes_completed >= result.score.stroke_count; }
 
 /// One pair per character and repetition that has both modes.
 std::vector<Pair> pairs(const std::vector<Result>& results) {
@@ -102,6 +104,77 @@ std::string repetitions(const Summary& summary) {
   return fmt::format("interrupted: means over {} of {} repetitions\n", range, summary.repetitions);
 }
 
+constexpr const char* writing_columns = "{:<10}{:<8}{:>8}{:>9}{:>9}{:>9}{:>9}{:>9}{:>8}{:>7}{:>7}{:>7}{:>9}\n";
+
+std::string writing_head() {
+  const auto line = fmt::runtime(writing_columns);
+  return fmt::format(line, "", "", "time", "RMS err", "max err", "overall", "written", "written", "order", "back-",
+                     "extra", "miss-", "comple-") +
+         fmt::format(line, "character", "mode", "[s]", "[mm]", "[mm]", "[mm]", "[%]", "strokes", "", "wards", "", "ing",
+                     "ted");
+}
+
+std::string writing_line(const std::vector<Result>& results, std::size_t begin, std::size_t end) {
+  const int decimals = end - begin > 1 ? 2 : 0;
+  const auto error = [&](double CharacterScore::*which) {
+    return number(mean(results, begin, end, [which](const Result& r) { return r.score.*which * millimetres; }), 3);
+  };
+  const auto remarks = [&](StrokeRemarkKind kind) {
+    return number(mean(results, begin, end, [kind](const Result& r) { return r.score.match.count(kind); }), decimals);
+  };
+  const auto strokes = [&](int CharacterScore::*which) {
+    return number(mean(results, begin, end, [which](const Result& r) { return r.score.*which; }), decimals);
+  };
+  const auto of = [&](const Quantity& quantity, int places) {
+    return number(mean(results, begin, end, quantity), places);
+  };
+  const CharacterScore& first = results[begin].score;
+  return fmt::format(fmt::runtime(writing_columns), encode_utf8(first.character), to_string(results[begin].mode),
+                     of([](const Result& r) { return r.score.time; }, 2), error(&CharacterScore::rms_error),
+                     error(&CharacterScore::max_error), error(&CharacterScore::overall_error),
+                     of([](const Result& r) { return 100.0 * r.score.coverage; }, 0),
+                     fmt::format("{}/{}", strokes(&CharacterScore::strokes_written), first.stroke_count),
+                     remarks(StrokeRemarkKind::order), remarks(StrokeRemarkKind::direction),
+                     remarks(StrokeRemarkKind::extra), remarks(StrokeRemarkKind::missing),
+                     strokes(&CharacterScore::strokes_completed));
+}
+
+constexpr const char* force_columns = "{:<10}{:<8}{:>8}{:>10}{:>10}{:>12}\n";
+
+std::string force_head() {
+  const auto line = fmt::runtime(force_columns);
+  return fmt::format(line, "", "", "peak F", "max step", "tick p50", "tick p99.9") +
+         fmt::format(line, "character", "mode", "[N]", "[N/tick]", "[ns]", "[ns]");
+}
+
+std::string force_line(const std::vector<Result>& results, std::size_t begin, std::size_t end) {
+  const auto of = [&](const Quantity& quantity, int decimals) {
+    return number(mean(results, begin, end, quantity), decimals);
+  };
+  return fmt::format(fmt::runtime(force_columns), encode_utf8(results[begin].score.character),
+                     to_string(results[begin].mode), of([](const Result& r) { return r.score.peak_force; }, 2),
+                     of([](const Result& r) { return r.score.max_force_step; }, 3),
+                     of([](const Result& r) { return r.tick_p50; }, 0),
+                     of([](const Result& r) { return r.tick_p999; }, 0));
+}
+
+/// A line for each mode: over how many of how many strokes its errors are.
+std::string means(const std::vector<Result>& results) {
+  std::string text;
+  for (const FeedbackMode mode : {FeedbackMode::vision, FeedbackMode::force}) {
+    std::vector<CharacterScore> scores;
+    for (const Result& result : results) {
+      if (result.mode == mode) scores.push_back(result.score);
+    }
+    if (scores.empty()) continue;
+    const MeanScore all = mean_score(scores);
+    text += fmt::format("{:<7} RMS error {} mm over {} of {} strokes; {} mm with what was left out\n",
+                        to_string(mode), number(all.rms_error * millimetres, 3), all.strokes_written, all.stroke_count,
+                        number(all.overall_error * millimetres, 3));
+  }
+  return text;
+}
+
 }  // namespace
 
 double percentile(std::vector<float>& values, double share) {
@@ -114,47 +187,28 @@ double percentile(std::vector<float>& values, double share) {
 
 std::string table(const Summary& summary) {
   const std::vector<Result>& results = summary.results;
-  constexpr const char* head = "{:<10}{:<8}{:>8}{:>10}{:>10}{:>7}{:>11}{:>9}{:>10}{:>10}{:>10}{:>12}\n";
   std::string text = repetitions(summary);
-  text += fmt::format(fmt::runtime(head), "", "", "time", "RMS err", "max err", "order", "direction",
-                      "strokes", "peak F", "max step", "tick p50", "tick p99.9");
-  text += fmt::format(fmt::runtime(head), "character", "mode", "[s]", "[mm]", "[mm]", "errors", "errors", "written",
-                      "[N]", "[N/tick]", "[ns]", "[ns]");
-  for (std::size_t begin = 0; begin < results.size();) {
-    const Result& first = results[begin];
-    const std::size_t end = end_of_repetitions(results, begin);
-    const auto of = [&](const Quantity& quantity) { return mean(results, begin, end, quantity); };
-    const int decimals = end - begin > 1 ? 2 : 0;
-    const double written = of([](const Result& r) { return r.score.strokes_completed; });
-    text += fmt::format(
-        "{:<10}{:<8}{:>8.2f}{:>10}{:>10}{:>7.{}f}{:>11.{}f}{:>9}{:>10.2f}{:>10.3f}{:>10.0f}{:>12.0f}\n",
-        encode_utf8(first.score.character), to_string(first.mode), of([](const Result& r) { return r.score.time; }),
-        mean_error(results, begin, end, &CharacterScore::rms_error),
-        mean_error(results, begin, end, &CharacterScore::max_error),
-        of([](const Result& r) { return r.score.order_mistakes(); }), decimals,
-        of([](const Result& r) { return r.score.direction_mistakes(); }), decimals,
-        fmt::format("{:.{}f}/{}", written, decimals, first.score.stroke_count),
-        of([](const Result& r) { return r.score.peak_force; }),
-        of([](const Result& r) { return r.score.max_force_step; }), of([](const Result& r) { return r.tick_p50; }),
-        of([](const Result& r) { return r.tick_p999; }));
-    begin = end;
+  for (const bool second : {false, true}) {
+    if (second) text += "\n";
+    text += second ? force_head() : writing_head();
+    for (std::size_t begin = 0, end = 0; begin < results.size(); begin = end) {
+      end = end_of_repetitions(results, begin);
+      text += second ? force_line(results, begin, end) : writing_line(results, begin, end);
+    }
   }
-  return text;
+  return text + "\n" + means(results);
 }
 
 std::string json(const Summary& summary) {
   Json list = Json::array();
   for (const Result& result : summary.results) {
     const CharacterScore& score = result.score;
-    const auto error = [&score](double metres) {  // null: no stroke was completed, so there is no error
-      return score.strokes_completed > 0 ? Json(metres * millimetres) : Json();
-    };
-    Json mistakes = Json::array();
-    for (const WritingMistake& mistake : score.mistakes) {
-      mistakes.push_back({{"kind", mistake.kind == WritingMistakeKind::order ? "order" : "direction"},
-                          {"stroke", mistake.stroke + 1},
-                          {"time_s", mistake.time},
-                          {"reason", mistake.reason}});
+    Json remarks = Json::array();
+    for (const StrokeRemark& remark : score.match.remarks) {
+      Json each = remark_json(remark);
+      const bool has_time = remark.path >= 0;
+      each["time_s"] = has_time ? Json(score.pen_downs[static_cast<std::size_t>(remark.path)].begin) : Json();
+      remarks.push_back(each);
     }
     list.push_back({{"character", encode_utf8(score.character)},
                     {"position", result.position},
@@ -162,12 +216,18 @@ std::string json(const Summary& summary) {
                     {"repetition", result.repetition},
                     {"seed", result.seed},
                     {"time_s", score.time},
-                    {"rms_error_mm", error(score.rms_error)},
-                    {"max_error_mm", error(score.max_error)},
+                    {"rms_error_mm", score.rms_error * millimetres},  // null: nothing was written
+                    {"max_error_mm", score.max_error * millimetres},
+                    {"overall_error_mm", score.overall_error * millimetres},
+                    {"coverage", score.coverage},
                     {"order_mistakes", score.order_mistakes()},
                     {"direction_mistakes", score.direction_mistakes()},
+                    {"extra_pen_downs", score.match.count(StrokeRemarkKind::extra)},
+                    {"missing_strokes", score.match.count(StrokeRemarkKind::missing)},
                     {"strokes", score.stroke_count},
+                    {"strokes_written", score.strokes_written},
                     {"strokes_completed", score.strokes_completed},
+                    {"lost_samples", score.lost_samples},
                     {"peak_force_N", score.peak_force},
                     {"max_force_step_N", score.max_force_step},
                     {"tick_ns_p50", result.tick_p50},
@@ -176,9 +236,10 @@ std::string json(const Summary& summary) {
                     {"external_sequence", score.external_sequence},
                     {"internal_sequence", score.internal_sequence},
                     {"fidelity", score.fidelity},
-                    {"mistakes", mistakes}});
+                    {"remarks", remarks}});
   }
-  const Json all = {{"repetitions_requested", summary.repetitions}, {"interrupted", summary.interrupted}, {"results", list}};
+  const Json all = {
+      {"repetitions_requested", summary.repetitions}, {"interrupted", summary.interrupted}, {"results", list}};
   return all.dump(2) + "\n";
 }
 

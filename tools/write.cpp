@@ -147,6 +147,7 @@ std::vector<Sheet> sheets(const std::vector<Character>& characters, const PageLa
 Recording part(const Recording& recording, int character) {
   Recording result;
   result.rate = recording.rate;
+  result.page = recording.page;
   const auto active = [character](const RecordedSample& sample) { return sample.character == character; };
   std::copy_if(recording.samples.begin(), recording.samples.end(), std::back_inserter(result.samples), active);
   return result;

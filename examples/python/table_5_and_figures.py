@@ -22,7 +22,7 @@ print(f"{'character':10} {'mode':7} {'time [s]':>9} {'RMS error [mm]':>15} {'max
 for code in TEXT:
     for mode in ("vision", "force"):
         rows = (np.asarray(table["character"]) == code) & (np.asarray(table["mode"]) == mode)
-        time, rms, largest = (np.asarray(table[n])[rows].mean() for n in ("time", "rms_error", "max_error"))
+        time, rms, largest = (np.nanmean(np.asarray(table[n])[rows]) for n in ("time", "rms_error", "max_error"))
         print(f"{code:9} {mode:7} {time:9.2f} {1e3 * rms:15.3f} {1e3 * largest:13.3f}")
 print("in the paper, force feedback reduced the time by 17.1 % (26, 12, 12, 18 %), for people writing four characters")
 for column, what in (("time", "time"), ("rms_error", "RMS error")):

@@ -108,7 +108,7 @@ Written write_all(std::span<const Character> characters, const Capabilities& dev
       const CharacterScore own = score_page(page, recording).front();
       completed += own.strokes_completed;
       strokes += own.stroke_count;
-      if (own.strokes_completed == 0) continue;
+      if (own.strokes_written == 0) continue;
       squares += own.rms_error * own.rms_error;
       ++scored;
     }

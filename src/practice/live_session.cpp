@@ -67,6 +67,7 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
 
   LiveResult result;
   result.recording.rate = rate;
+  result.recording.page = page_id(page);
   LiveView view;
   LiveTick newest;
   const auto take_over = [&] {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <vector>
 
 namespace calligraphy {
 namespace {
@@ -39,8 +40,10 @@ double student_t(std::size_t degrees_of_freedom) {
   return std::sqrt(static_cast<double>(degrees_of_freedom)) * std::tan(0.5 * (low + high));
 }
 
-MeanInterval mean_interval(std::span<const DrawnValue> values) {
-  MeanInterval result{not_known, not_known, values.size(), 0};
+MeanInterval mean_interval(std::span<const DrawnValue> drawn) {
+  std::vector<DrawnValue> values(drawn.begin(), drawn.end());
+  std::erase_if(values, [](const DrawnValue& each) { return std::isnan(each.value); });
+  MeanInterval result{not_known, not_known, values.size(), 0, drawn.size() - values.size()};
   if (values.empty()) return result;
   const auto count = static_cast<double>(values.size());
   result.mean = 0.0;

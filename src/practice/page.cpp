@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 
 #include <calligraphy/base/error.hpp>
 
 #include "base/require.hpp"
+#include "model/checksum.hpp"
+#include "model/little_endian.hpp"
 
 namespace calligraphy {
 
@@ -66,6 +69,27 @@ std::vector<PracticePage> lay_out(std::span<const Character> characters, const P
     pages.push_back(std::move(page));
   }
   return pages;
+}
+
+std::uint32_t page_id(const PracticePage& page) {
+  std::vector<std::byte> bytes;
+  const auto add = [&bytes](double value) {
+    const bool in_range = std::abs(value) < 1e18;
+    append(bytes, static_cast<std::uint64_t>(in_range ? std::llround(value) : std::numeric_limits<long long>::max()));
+  };
+  constexpr double nanometres = 1e9, micro_em = 1e6;
+  for (const PlacedCharacter& placed : page.characters) {
+    add(placed.character.code);
+    for (const double length : {placed.placement.origin.x(), placed.placement.origin.y(), placed.placement.em}) {
+      add(length * nanometres);
+    }
+    for (const int id : placed.character.sequence.stroke_ids) add(id);
+    for (const Point& point : placed.character.structure.control_points) {
+      add(point.x() * micro_em);
+      add(point.y() * micro_em);
+    }
+  }
+  return std::max<std::uint32_t>(crc32(bytes), 1);
 }
 
 }  // namespace calligraphy

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+
+#include "pen_down.hpp"
 
 namespace calligraphy {
 namespace {
 
 constexpr double flat = 0.15;        // a side of a box below this is flat [em]
-constexpr double max_bounce = 0.05;  // nobody lifts a pen and lowers it again within half a period of 10 Hz [s]
 constexpr double max_stretch = 1.5;  // of one axis against the other
 
 Eigen::AlignedBox2d box_of(std::span<const PenPath> paths) {
@@ -44,13 +44,9 @@ std::vector<PenPath> pen_paths(const PenTrace& trace) {
 
 std::vector<PenPath> pen_paths(const Recording& recording, const Placement& placement) {
   std::vector<PenPath> paths;
-  double last_touch = -std::numeric_limits<double>::infinity();
-  for (const RecordedSample& sample : recording.samples) {
-    const bool good = sample.status == TickStatus::ok && sample.pen_tip.allFinite();
-    if (sample.state == InteractionState::separation || !good) continue;
-    if (paths.empty() || sample.time > last_touch + max_bounce) paths.emplace_back();
-    paths.back().push_back((sample.pen_tip.head<2>() - placement.origin) / placement.em);
-    last_touch = sample.time;
+  for (const PenDown& down : pen_downs(recording)) {
+    PenPath& path = paths.emplace_back();
+    for (const TimedPoint& sample : down.samples) path.push_back((sample.point - placement.origin) / placement.em);
   }
   return paths;
 }

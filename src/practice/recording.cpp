@@ -21,7 +21,7 @@ namespace {
 constexpr std::array<std::string_view, 16> column_names = {
     "time_s",    "device_x_m", "device_y_m", "device_z_m", "tip_x_m", "tip_y_m",   "tip_z_m", "force_x_N",
     "force_y_N", "force_z_N",  "state",      "events",     "status",  "character", "stroke",  "tick_ns"};
-constexpr std::string_view rate_comment = "# rate_Hz=";
+constexpr std::string_view rate_comment = "# rate_Hz=", page_comment = " page=";
 constexpr std::size_t max_recording_bytes = 1 << 30;  ///< more than an hour at 1 kHz
 constexpr std::size_t max_row_bytes = 4096;           ///< sixteen values of any length that is written
 constexpr std::size_t chunk = 1 << 16;                ///< bytes given to the stream at a time
@@ -71,9 +71,14 @@ class RecordingParser : private LineReader {
       fail("expected '" + std::string(rate_comment) + "...', found " + calligraphy::in_quotes(line()));
     }
     Recording recording;
-    recording.rate = number<double>("rate_Hz", std::string_view(line()).substr(rate_comment.size()));
+    const std::string_view values = std::string_view(line()).substr(rate_comment.size());
+    const std::string_view rate = values.substr(0, values.find(page_comment));
+    recording.rate = number<double>("rate_Hz", rate);
     if (!(std::isfinite(recording.rate) && recording.rate > 0.0)) {
-      fail("rate_Hz is '" + line().substr(rate_comment.size()) + "': expected a finite number above 0");
+      fail("rate_Hz is '" + std::string(rate) + "': expected a finite number above 0");
+    }
+    if (rate.size() < values.size()) {
+      recording.page = number<std::uint32_t>("page", values.substr(rate.size() + page_comment.size()));
     }
     while (next_whole()) recording.samples.push_back(sample());
     return recording;
@@ -160,6 +165,7 @@ class RecordingParser : private LineReader {
 void write_recording(std::ostream& out, const Recording& recording) {
   std::string text = header().append("\n").append(rate_comment);
   append(text, recording.rate);
+  if (recording.page != 0) append(text.append(page_comment), recording.page);
   text += '\n';
   for (const RecordedSample& sample : recording.samples) {
     append_row(text, sample);

@@ -10,10 +10,14 @@
 
 namespace calligraphy {
 
+/// `count` points, at least two, at even steps along the first `length` of a path, the ends included. A path has at
+/// least one point; one without length stays there.
+std::vector<Point> even_points(std::span<const Point> path, double length, std::size_t count);
+
 /// Points of a path at even steps of its length, the ends included.
 using Outline = std::array<Point, 32>;
 
-/// Of the first `length` of a path, or of all of it. A path has at least one point; one without length stays there.
+/// Of the first `length` of a path, or of all of it.
 Outline outline(std::span<const Point> path, double length);
 Outline outline(std::span<const Point> path);
 

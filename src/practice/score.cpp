@@ -6,43 +6,19 @@
 #include <limits>
 #include <span>
 
-#include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/practice/pen_path.hpp>
+#include <calligraphy/render/detail/prepared_page.hpp>
 
+#include "pen_down.hpp"
+#include "recorded_page.hpp"
 #include "resemblance.hpp"
-#include "stroke_name.hpp"
+#include "stroke_alignment.hpp"
 
 namespace calligraphy {
 namespace {
 
-constexpr double contour_tolerance = 0.05;   // RMS error at which the contour score has fallen to 1/e [em]
-constexpr double min_attempt = 0.1;          // a path on the paper that is shorter says nothing of a stroke [em]
-constexpr double min_time = 0.15;            // a pen that is down for less has bounced [s]
-constexpr double doubt = 0.05;               // another stroke must be resembled more than the due one by this [em]
-constexpr double backward_tolerance = 0.15;  // going back by more within a stroke is a mistake [em]
-
-/// A stroke of the template, all elements prepared.
-struct Template {
-  std::vector<StrokeElement> elements;
-  std::vector<Point> line;
-  const TypicalStroke* type;
-};
-
-double distance_from(const Template& stroke, const Point& tip) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const StrokeElement& element : stroke.elements) {
-    nearest = std::min(nearest, nearest_point(element, tip).distance);
-  }
-  return nearest;
-}
-
-std::vector<Template> templates(const PlacedCharacter& placed) {
-  std::vector<Template> result;
-  for (const Stroke& stroke : strokes(placed.character)) {
-    result.push_back({place_elements(stroke, placed.placement), middle_line(stroke, placed.placement), stroke.type});
-  }
-  return result;
-}
+constexpr double contour_tolerance = 0.05;  // error at which the contour score has fallen to 1/e [em]
+constexpr std::size_t line_points = 101;    // of a stroke: its coverage is told to 1 %
 
 /// Sums an error along a path.
 struct PathError {
@@ -53,199 +29,326 @@ struct PathError {
     square += error * error * step;
     largest = std::max(largest, error);
   }
+  void add(const PathError& other) {
+    length += other.length;
+    square += other.square;
+    largest = std::max(largest, other.largest);
+  }
   double rms() const { return length > 0.0 ? std::sqrt(square / length) : largest; }
 };
 
-PathError lateral_error(const Template& stroke, std::span<const RecordedSample> path) {
-  PathError error;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const Point tip = path[i].pen_tip.head<2>();
-    const double step = i > 0 ? (tip - path[i - 1].pen_tip.head<2>()).norm() : 0.0;
-    error.add(distance_from(stroke, tip), step);
-  }
-  return error;
+double distance_to_segment(const Point& point, const Point& from, const Point& to) {
+  const Point way = to - from;
+  const double square = way.squaredNorm();
+  const double share = square > 0.0 ? std::clamp((point - from).dot(way) / square, 0.0, 1.0) : 0.0;
+  return (from + share * way - point).norm();
 }
 
-std::vector<Point> points_of(std::span<const RecordedSample> path) {
+double distance_to_path(const Point& point, const PenStroke& path) {
+  double nearest = (path.front().point - point).norm();
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    nearest = std::min(nearest, distance_to_segment(point, path[i - 1].point, path[i].point));
+  }
+  return nearest;
+}
+
+std::vector<Point> points_of(const PenStroke& samples) {
   std::vector<Point> points;
-  for (const RecordedSample& sample : path) points.push_back(sample.pen_tip.head<2>());
+  points.reserve(samples.size());
+  for (const TimedPoint& sample : samples) points.push_back(sample.point);
   return points;
 }
 
-/// How far the pen went back within a stroke, at most [m].
-double backwards(const PlacedCharacter& placed, std::size_t stroke, std::span<const RecordedSample> path) {
-  ActiveStroke active;
-  active.load(strokes(placed.character)[stroke], placed.placement);
-  double most = 0.0;
-  for (const RecordedSample& sample : path)
-    most = std::max(most, active.update(sample.pen_tip.head<2>(), {}).backwards);
-  return most;
-}
+/// A stroke of the page, prepared.
+struct Template {
+  std::vector<StrokeElement> elements;
+  std::vector<Point> line;  ///< at even steps
+  double length;            ///< [m]
 
-/// How little a path on the paper resembles a stroke [m], and in which direction it runs along it.
-struct Resemblance {
-  double cost = std::numeric_limits<double>::infinity();
-  bool backwards = false;
+  Template(const Stroke& stroke, const Placement& placement) : elements(place_elements(stroke, placement)) {
+    const std::vector<Point> fine = middle_line(stroke, placement);
+    length = path_length(fine);
+    line = even_points(fine, length, line_points);
+  }
+
+  double distance_from(const Point& tip) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const StrokeElement& element : elements) nearest = std::min(nearest, nearest_point(element, tip).distance);
+    return nearest;
+  }
 };
 
-/// A pen that was lifted early is compared with as much of the stroke as it wrote.
-Resemblance compare(const Template& stroke, const std::vector<Point>& path) {
-  const double length = std::min(path_length(path), path_length(stroke.line));
-  const std::vector<Point> from_its_end(stroke.line.rbegin(), stroke.line.rend());
-  const Outline drawn = outline(path);
-  const double forwards = mean_distance(drawn, outline(stroke.line, length));
-  const double backwards = mean_distance(drawn, outline(from_its_end, length));
-  return {std::min(forwards, backwards), backwards < forwards};
+/// A stroke within a line through several: from and to this share of the line.
+struct LinePart {
+  std::size_t stroke;
+  double from, to;
+};
+
+struct JoinedLine {
+  std::vector<Point> points;
+  std::vector<LinePart> parts;
+};
+
+/// A part of a stroke, from and to this share of its length.
+struct Interval {
+  double from, to;
+};
+
+/// Share of [0, 1] that intervals cover together.
+double covered(std::vector<Interval> parts) {
+  std::sort(parts.begin(), parts.end(), [](const auto& one, const auto& other) { return one.from < other.from; });
+  double sum = 0.0, reached = 0.0;
+  for (const Interval& part : parts) {
+    sum += std::max(0.0, part.to - std::max(part.from, reached));
+    reached = std::max(reached, part.to);
+  }
+  return sum;
 }
 
-std::string stroke_label(const std::vector<Template>& strokes, std::size_t index) {
-  return stroke_name(index, *strokes[index].type);
-}
+/// What was written of a stroke.
+struct Written {
+  std::vector<std::size_t> paths;  ///< the pen-downs
+  std::vector<Interval> parts;     ///< of the stroke, that they follow
+  bool backwards = false;
+  PathError error;  ///< of the pen
+};
 
 class CharacterScorer {
  public:
-  CharacterScorer(const PlacedCharacter& placed, std::span<const RecordedSample> samples)
-      : placed_(placed), strokes_(templates(placed)), samples_(samples) {
+  CharacterScorer(const PlacedCharacter& placed, std::vector<const PenDown*> downs, const StrokeTolerances& tolerances)
+      : placement_(placed.placement), downs_(std::move(downs)) {
+    for (const Stroke& stroke : strokes(placed.character)) templates_.emplace_back(stroke, placement_);
     result_.character = placed.character.code;
     result_.stroke_count = placed.character.stroke_count();
+    result_.strokes.resize(templates_.size());
+    std::vector<PenPath> paths;
+    for (const PenDown* down : downs_) {
+      PenPath& path = paths.emplace_back();
+      for (const TimedPoint& sample : down->samples) {
+        path.push_back((sample.point - placement_.origin) / placement_.em);
+      }
+      result_.pen_downs.push_back({down->samples.front().time, down->samples.back().time});
+    }
+    result_.match = match_strokes(placed.character, paths, tolerances);
   }
 
   CharacterScore run() {
-    for (std::size_t i = 0; i < samples_.size(); ++i) visit(i);
-    judge_time_and_force();
-    if (whole_.length > 0.0) result_.rms_error = whole_.rms();
-    result_.max_error = whole_.largest;
+    written_.resize(templates_.size());
+    for (std::size_t path = 0; path < downs_.size(); ++path) read(path);
     combine();
     return std::move(result_);
   }
 
  private:
-  void visit(std::size_t i) {
-    const RecordedSample& sample = samples_[i];
-    if (has_event(sample.events, TickEvent::contact)) {
-      down_ = i;
-      due_ = static_cast<std::size_t>(sample.stroke);
-      finished_while_down_ = false;
-    }
-    if (has_event(sample.events, TickEvent::stroke_finished) && down_ != none) {
-      finish(samples_.subspan(down_, i + 1 - down_));
-      finished_while_down_ = true;
-      last_finish_ = i;
-    }
-    const bool lifted = has_event(sample.events, TickEvent::lift) && down_ != none;
-    if (lifted) {
-      if (!finished_while_down_ && due_ < strokes_.size()) judge_attempt(samples_.subspan(down_, i - down_));
-      down_ = none;
-    }
-  }
-
-  void finish(std::span<const RecordedSample> path) {
-    const auto stroke = static_cast<std::size_t>(result_.strokes_completed++);
-    if (stroke >= strokes_.size()) return;
-    const PathError error = lateral_error(strokes_[stroke], path);
-    whole_.length += error.length;
-    whole_.square += error.square;
-    whole_.largest = std::max(whole_.largest, error.largest);
-    contour_ += std::exp(-error.rms() / (contour_tolerance * placed_.placement.em));
-    const double back = backwards(placed_, stroke, path);
-    if (back > backward_tolerance * placed_.placement.em) {
-      add(WritingMistakeKind::direction, stroke, path.front().time,
-          stroke_label(strokes_, stroke) + " was written backwards over " + std::to_string(std::lround(back * 1e3)) +
-              " mm");
+  /// Measures what a pen-down wrote.
+  void read(std::size_t path) {
+    const DrawnStroke& drawn = result_.match.drawn[path];
+    if (drawn.stroke < 0) return;
+    const std::vector<Point> points = points_of(downs_[path]->samples);
+    const bool backwards = drawn.direction == WritingDirection::backwards;
+    const JoinedLine line = join(drawn, backwards);
+    const Alignment whole = align(points, even_points(line.points, path_length(line.points), line.points.size()));
+    for (const LinePart& part : line.parts) {
+      Written& written = written_[part.stroke];
+      if (!add_error(points, whole, part, written.error)) continue;
+      written.paths.push_back(path);
+      written.backwards = backwards;
+      const double share = part.to - part.from;
+      const double from = std::clamp((whole.begin - part.from) / share, 0.0, 1.0);
+      const double to = std::clamp((whole.end - part.from) / share, 0.0, 1.0);
+      written.parts.push_back(backwards ? Interval{1.0 - to, 1.0 - from} : Interval{from, to});
     }
   }
 
-  /// A pen-down that completed nothing. In doubt the writer meant the stroke that was due.
-  void judge_attempt(std::span<const RecordedSample> path) {
-    const double em = placed_.placement.em;
-    if (path.size() < 2 || path.back().time - path.front().time < min_time) return;
-    const std::vector<Point> points = points_of(path);
-    if (path_length(points) < min_attempt * em) return;
-    std::size_t meant = due_;
-    Resemblance best = compare(strokes_[due_], points);
-    const double of_due = best.cost;
-    for (std::size_t j = 0; j < strokes_.size(); ++j) {
-      const Resemblance other = compare(strokes_[j], points);
-      if (other.cost >= best.cost || other.cost + doubt * em >= of_due) continue;
-      best = other;
-      meant = j;
+  /// The strokes that a pen-down wrote, one after the other with the ways between them.
+  JoinedLine join(const DrawnStroke& drawn, bool from_the_end) const {
+    JoinedLine line;
+    double length = 0.0;
+    for (int k = 0; k < drawn.stroke_count; ++k) {
+      const int next = drawn.stroke + (from_the_end ? drawn.stroke_count - 1 - k : k);
+      const auto stroke = static_cast<std::size_t>(next);
+      std::vector<Point> points = templates_[stroke].line;
+      if (from_the_end) std::reverse(points.begin(), points.end());
+      if (k > 0) length += (points.front() - line.points.back()).norm();
+      line.points.insert(line.points.end(), points.begin(), points.end());
+      line.parts.push_back({stroke, length, length + path_length(points)});
+      length = line.parts.back().to;
     }
-    if (meant != due_) {
-      const std::string was = meant < due_ ? " was written again where " : " was written where ";
-      add(WritingMistakeKind::order, due_, path.front().time,
-          stroke_label(strokes_, meant) + was + stroke_label(strokes_, due_) + " was due");
-    } else if (best.backwards) {
-      add(WritingMistakeKind::direction, due_, path.front().time,
-          stroke_label(strokes_, due_) + " was written backwards");
+    for (LinePart& part : line.parts) {
+      part.from = length > 0.0 ? part.from / length : 0.0;
+      part.to = length > 0.0 ? part.to / length : 1.0;
+    }
+    return line;
+  }
+
+  /// Of the points that lie along a part of the line; whether there are any.
+  bool add_error(const std::vector<Point>& points, const Alignment& whole, const LinePart& part, PathError& error) {
+    bool any = false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (whole.places[i] < part.from || whole.places[i] > part.to) continue;
+      const double step = i > 0 ? (points[i] - points[i - 1]).norm() : 0.0;
+      error.add(templates_[part.stroke].distance_from(points[i]), step);
+      any = true;
+    }
+    return any;
+  }
+
+  /// Returns its error with what was left out.
+  PathError measure(std::size_t stroke) {
+    const Written& written = written_[stroke];
+    StrokeScore& score = result_.strokes[stroke];
+    if (!written.paths.empty()) {
+      score.pen_down = static_cast<int>(written.paths.front());
+      score.coverage = written.backwards ? 0.0 : covered(written.parts);
+      score.rms_error = written.error.rms();
+      score.max_error = written.error.largest;
+    }
+    PathError overall = written.error;
+    add_rest(stroke, overall);
+    if (!downs_.empty()) score.overall_error = overall.rms();
+    return overall;
+  }
+
+  /// What was left out of a stroke, as far as it is from the ink.
+  void add_rest(std::size_t stroke, PathError& error) const {
+    const Written& written = written_[stroke];
+    const std::vector<Point>& line = templates_[stroke].line;
+    const double step = templates_[stroke].length / static_cast<double>(line.size() - 1);
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      const double place = static_cast<double>(k) / static_cast<double>(line.size() - 1);
+      const bool done = std::any_of(written.parts.begin(), written.parts.end(),
+                                    [place](const Interval& part) { return part.from <= place && place <= part.to; });
+      if (!done) error.add(distance_to_ink(line[k], written), step);
     }
   }
 
-  void add(WritingMistakeKind kind, std::size_t stroke, double time, std::string reason) {
-    result_.mistakes.push_back({kind, static_cast<int>(stroke), time, std::move(reason)});
-  }
-
-  void judge_time_and_force() {
-    const auto first = std::find_if(samples_.begin(), samples_.end(), [](const RecordedSample& sample) {
-      return has_event(sample.events, TickEvent::contact);
-    });
-    if (first != samples_.end()) {
-      const bool complete = result_.strokes_completed == result_.stroke_count;
-      const double end = complete && last_finish_ != none ? samples_[last_finish_].time : samples_.back().time;
-      result_.time = end - first->time;
+  /// Of the stroke, or of the whole character where it was not written.
+  double distance_to_ink(const Point& point, const Written& written) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t path = 0; path < downs_.size(); ++path) {
+      const auto& own = written.paths;
+      if (!own.empty() && std::find(own.begin(), own.end(), path) == own.end()) continue;
+      nearest = std::min(nearest, distance_to_path(point, downs_[path]->samples));
     }
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      result_.peak_force = std::max(result_.peak_force, samples_[i].force.norm());
-      if (i == 0) continue;
-      result_.max_force_step = std::max(result_.max_force_step, (samples_[i].force - samples_[i - 1].force).norm());
-    }
+    return nearest;
   }
 
   void combine() {
-    const double completed = result_.strokes_completed;
-    if (completed == 0.0) return;
-    result_.contour = contour_ / result_.stroke_count;
-    result_.external_sequence = completed / (completed + result_.order_mistakes());
-    result_.internal_sequence = completed / (completed + result_.direction_mistakes());
+    PathError written, overall;
+    double length = 0.0, contour = 0.0, covered_length = 0.0;
+    for (std::size_t i = 0; i < templates_.size(); ++i) {
+      overall.add(measure(i));
+      const StrokeScore& score = result_.strokes[i];
+      length += templates_[i].length;
+      covered_length += score.coverage * templates_[i].length;
+      if (score.pen_down < 0) continue;
+      ++result_.strokes_written;
+      written.add(written_[i].error);
+      contour += std::exp(-score.overall_error / (contour_tolerance * placement_.em));
+    }
+    result_.coverage = length > 0.0 ? covered_length / length : 0.0;
+    if (!downs_.empty()) result_.overall_error = overall.rms();
+    if (result_.strokes_written == 0) return;
+    result_.rms_error = written.rms();
+    result_.max_error = written.largest;
+    const double strokes = result_.stroke_count, right = result_.strokes_written;
+    result_.contour = contour / strokes;
+    result_.external_sequence =
+        std::max(0.0, right - result_.order_mistakes()) / (strokes + result_.match.count(StrokeRemarkKind::extra));
+    result_.internal_sequence = std::max(0.0, right - result_.direction_mistakes()) / strokes;
     result_.fidelity = std::cbrt(result_.contour * result_.external_sequence * result_.internal_sequence);
   }
 
-  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
-  const PlacedCharacter& placed_;
-  const std::vector<Template> strokes_;
-  const std::span<const RecordedSample> samples_;
+  const Placement placement_;
+  const std::vector<const PenDown*> downs_;
+  std::vector<Template> templates_;
   CharacterScore result_;
-  PathError whole_;
-  double contour_ = 0.0;
-  std::size_t down_ = none;
-  std::size_t due_ = 0;
-  std::size_t last_finish_ = none;
-  bool finished_while_down_ = false;
+  std::vector<Written> written_;  ///< of each stroke
 };
 
-int count(const std::vector<WritingMistake>& mistakes, WritingMistakeKind kind) {
-  return static_cast<int>(std::count_if(mistakes.begin(), mistakes.end(),
-                                        [kind](const WritingMistake& mistake) { return mistake.kind == kind; }));
+/// The character in whose square the pen-down lies, or the nearest; of several, the one that was active.
+std::size_t character_of(const PenDown& down, const PracticePage& page) {
+  Point middle = Point::Zero();
+  for (const TimedPoint& sample : down.samples) middle += sample.point / static_cast<double>(down.samples.size());
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < page.characters.size(); ++i) {
+    const Placement& placement = page.characters[i].placement;
+    const Eigen::AlignedBox2d square(placement.origin, placement.origin + Point::Constant(placement.em));
+    const double distance = square.exteriorDistance(middle);
+    const bool is_active = static_cast<int>(i) == down.character;
+    if (distance < least || (distance == least && is_active)) {
+      least = distance;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+/// What the session says of a character: strokes finished, time and force.
+void add_session(const Recording& recording, const PracticePage& page, std::vector<CharacterScore>& scores) {
+  const RecordedSample* before = nullptr;
+  for (const RecordedSample& sample : recording.samples) {
+    const auto active = static_cast<std::size_t>(sample.character);
+    if (has_event(sample.events, TickEvent::stroke_finished)) {
+      const StrokeIndex finished = finished_stroke(page, sample);
+      CharacterScore& score = scores[finished.character];
+      score.strokes[finished.stroke].completed = true;
+      const bool is_last = has_event(sample.events, TickEvent::character_finished);
+      if (is_last && !score.pen_downs.empty()) score.time = sample.time - score.pen_downs.front().begin;
+    }
+    if (active < scores.size()) {
+      CharacterScore& score = scores[active];
+      score.lost_samples += is_usable(sample) ? 0 : 1;
+      score.peak_force = std::max(score.peak_force, sample.force.norm());
+      if (before != nullptr) {
+        score.max_force_step = std::max(score.max_force_step, (sample.force - before->force).norm());
+      }
+    }
+    before = &sample;
+  }
+  for (CharacterScore& score : scores) {
+    score.strokes_completed = static_cast<int>(
+        std::count_if(score.strokes.begin(), score.strokes.end(), [](const auto& stroke) { return stroke.completed; }));
+  }
 }
 
 }  // namespace
 
-int CharacterScore::order_mistakes() const noexcept { return count(mistakes, WritingMistakeKind::order); }
-int CharacterScore::direction_mistakes() const noexcept { return count(mistakes, WritingMistakeKind::direction); }
-
-std::vector<CharacterScore> score_page(const PracticePage& page, const Recording& recording) {
+std::vector<CharacterScore> score_page(const PracticePage& page, const Recording& recording,
+                                       const StrokeTolerances& tolerances) {
+  if (page.characters.empty()) return {};
+  validate(page.characters);
+  require_same_page(page, recording);
+  const std::vector<PenDown> downs = pen_downs(recording);
+  std::vector<std::vector<const PenDown*>> own(page.characters.size());
+  for (const PenDown& down : downs) own[character_of(down, page)].push_back(&down);
   std::vector<CharacterScore> scores;
-  const std::span<const RecordedSample> samples(recording.samples);
-  std::size_t begin = 0;
-  for (std::size_t index = 0; index < page.characters.size(); ++index) {
-    std::size_t end = begin;
-    while (end < samples.size() && samples[end].character <= static_cast<int>(index)) ++end;
-    // The tick that finishes a character, or lifts the pen from it, already names the next one.
-    if (end < samples.size()) ++end;
-    scores.push_back(CharacterScorer(page.characters[index], samples.subspan(begin, end - begin)).run());
-    begin = end;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    scores.push_back(CharacterScorer(page.characters[i], std::move(own[i]), tolerances).run());
   }
+  add_session(recording, page, scores);
   return scores;
+}
+
+MeanScore mean_score(std::span<const CharacterScore> scores) {
+  MeanScore mean;
+  double error = 0.0, overall = 0.0, coverage = 0.0;
+  for (const CharacterScore& score : scores) {
+    ++mean.characters;
+    mean.stroke_count += score.stroke_count;
+    mean.strokes_written += score.strokes_written;
+    coverage += score.coverage;
+    if (score.strokes_written == 0) continue;
+    ++mean.characters_written;
+    error += score.rms_error;
+    overall += score.overall_error;
+  }
+  if (mean.characters > 0) mean.coverage = coverage / mean.characters;
+  if (mean.characters_written == 0) return mean;
+  mean.rms_error = error / mean.characters_written;
+  mean.overall_error = overall / mean.characters_written;
+  return mean;
 }
 
 }  // namespace calligraphy

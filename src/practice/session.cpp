@@ -50,6 +50,7 @@ Recording run_session(const PracticePage& page, const SessionOptions& options, c
   const double longest = options.character_timeout * static_cast<double>(page.characters.size());
   Recording recording;
   recording.rate = renderer.options().servo_rate;
+  recording.page = page_id(page);
   while (device.time() < longest) {
     const HapticTick& tick = session.update(device.read());
     device.write(session.force());
@@ -97,6 +98,7 @@ Recording replay_page(const PracticePage& page, ReplayDevice& device, const Sess
   SessionTick session(renderer, options.mode, options.measure_ticks);
   Recording recording;
   recording.rate = renderer.options().servo_rate;
+  recording.page = page_id(page);
   while (!device.finished()) {
     const HapticTick& tick = session.update(device.read());
     device.write(session.force());

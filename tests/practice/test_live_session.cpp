@@ -154,7 +154,7 @@ TEST_CASE("a page is written on a device with its own clock, and every tick is r
   CHECK(result.recording.samples.size() <= result.statistics.ticks);  // none during the final ramp-down of the force
   const CharacterScore written = score_page(page, result.recording).front();
   CHECK(written.strokes_completed == 2);
-  CHECK(written.mistakes.empty());
+  CHECK(written.match.remarks.empty());
   CHECK(device.max_force > 0.1);
   REQUIRE(!views.empty());
   CHECK(views.back().progress == 1.0);
@@ -231,7 +231,7 @@ TEST_CASE("a pen that comes out of an inkwell behind the paper writes nothing on
   CHECK(std::is_partitioned(views.begin(), views.end(), [](const LiveView& view) { return !view.started; }));
   const CharacterScore written = score_page(page, result.recording).front();
   CHECK(written.strokes_completed == 2);
-  CHECK(written.mistakes.empty());
+  CHECK(written.match.remarks.empty());
   REQUIRE(!result.recording.samples.empty());
   CHECK(result.recording.samples.front().device_point.z() > 0.0);
 }

@@ -1,6 +1,7 @@
 #include <calligraphy/practice/mean_interval.hpp>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <calligraphy/base/random.hpp>
@@ -34,6 +35,20 @@ TEST_CASE("an interval is clustered by the independent draws", "[practice]") {
   CHECK(clustered.half_width == Approx(9.9366).epsilon(1e-4));
   CHECK(clustered.values == 6);
   CHECK(clustered.draws == 3);
+}
+
+TEST_CASE("values that were not measured are left out and counted", "[practice]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<DrawnValue> some = {{1.0, 7}, {nan, 8}, {3.0, 8}, {nan, 9}};
+  const MeanInterval of_some = mean_interval(some);
+  CHECK(of_some.mean == Approx(2.0));
+  CHECK(of_some.half_width == Approx(12.706).epsilon(1e-4));  // t(1) times a standard error of 1
+  CHECK(of_some.values == 2);
+  CHECK(of_some.draws == 2);
+  CHECK(of_some.missing == 2);
+  const std::vector<DrawnValue> none = {{nan, 1}};
+  CHECK(std::isnan(mean_interval(none).mean));
+  CHECK(mean_interval(none).missing == 1);
 }
 
 TEST_CASE("clusters of unequal size weigh by their values", "[practice]") {

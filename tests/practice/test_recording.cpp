@@ -44,6 +44,7 @@ const std::vector<double> hard_numbers = {0.0,
 Recording hard_recording() {
   Recording recording;
   recording.rate = 1000.0 / 3.0;
+  recording.page = std::numeric_limits<std::uint32_t>::max();
   for (std::size_t i = 0; i < hard_numbers.size(); ++i) {
     const auto next = [i](std::size_t offset) { return hard_numbers[(i + offset) % hard_numbers.size()]; };
     RecordedSample sample;
@@ -76,6 +77,7 @@ bool same(const RecordedSample& a, const RecordedSample& b) {
 
 void check_same(const Recording& a, const Recording& b) {
   CHECK(bits(a.rate) == bits(b.rate));
+  CHECK(a.page == b.page);
   REQUIRE(a.samples.size() == b.samples.size());
   for (std::size_t i = 0; i < a.samples.size(); ++i) {
     CAPTURE(i);
@@ -214,6 +216,8 @@ TEST_CASE("CSV that is not a recording is rejected naming the line", "[practice]
           std::string("trace.csv:2: rate_Hz is '") + rate + "': expected a finite number above 0");
   }
   CHECK(error_of(header + "# rate_Hz=1k\n") == "trace.csv:2: rate_Hz is '1k': expected a number");
+  CHECK(error_of(header + "# rate_Hz=1000 page=-1\n") == "trace.csv:2: page is '-1': expected a number");
+  CHECK(error_of(header + "# rate_Hz=1000 page=4294967296\n") == "trace.csv:2: page is '4294967296': out of range");
 }
 
 TEST_CASE("a file truncated anywhere within a line is rejected", "[practice]") {

@@ -1,5 +1,8 @@
 #include <cmath>
+#include <limits>
+#include <utility>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/practice/score.hpp>
@@ -9,6 +12,7 @@
 
 using namespace calligraphy;
 using calligraphy_test::page_of;
+using calligraphy_test::session;
 
 namespace {
 
@@ -44,6 +48,7 @@ class Pen {
   }
 
   std::vector<CharacterScore> scores() const { return score_page(page_, recording_); }
+  const Recording& recording() const { return recording_; }
 
  private:
   void rest() { hover({0.5 * page_.width, 0.5 * page_.height}); }
@@ -65,6 +70,21 @@ class Pen {
   Recording recording_;
 };
 
+/// A straight path in steps of at most 0.1 mm.
+std::vector<Point> straight(const Point& from, const Point& to) {
+  const int steps = std::max(1, static_cast<int>(std::ceil((to - from).norm() / 1e-4)));
+  std::vector<Point> path;
+  for (int i = 0; i <= steps; ++i) path.push_back(from + (to - from) * i / steps);
+  return path;
+}
+
+/// First and last point of a stroke [m].
+std::pair<Point, Point> ends_of(const PracticePage& page, int character, int stroke) {
+  const PlacedCharacter& placed = page.characters[static_cast<std::size_t>(character)];
+  const auto points = strokes(placed.character)[static_cast<std::size_t>(stroke)].control_points;
+  return {placed.placement.to_page(points.front()), placed.placement.to_page(points.back())};
+}
+
 }  // namespace
 
 TEST_CASE("a perfect copy has no error, no mistake and full fidelity", "[practice]") {
@@ -72,8 +92,12 @@ TEST_CASE("a perfect copy has no error, no mistake and full fidelity", "[practic
   for (int stroke = 0; stroke < 5; ++stroke) pen.draw(0, stroke);
   const CharacterScore result = pen.scores().front();
   CHECK(result.strokes_completed == 5);
-  CHECK(result.mistakes.empty());
+  CHECK(result.strokes_written == 5);
+  CHECK(result.match.remarks.empty());
   CHECK(result.rms_error < 1e-7);
+  CHECK(result.overall_error < 1e-7);
+  CHECK(result.coverage == 1.0);
+  CHECK(result.lost_samples == 0);
   CHECK(result.fidelity == Approx(1.0).epsilon(1e-4));
 }
 
@@ -88,6 +112,7 @@ TEST_CASE("a heng drawn 1 mm too high has a lateral error of 1 mm", "[practice]"
   CHECK(result.strokes_completed == 1);
   CHECK(result.rms_error == Approx(1e-3).epsilon(1e-9));
   CHECK(result.max_error == Approx(1e-3).epsilon(1e-9));
+  CHECK(result.overall_error == Approx(1e-3).epsilon(1e-9));
   CHECK(result.contour == Approx(std::exp(-0.5)).epsilon(1e-6));  // 1 mm of an em of 40 mm, against 5 %
 }
 
@@ -108,68 +133,244 @@ TEST_CASE("the score of a stroke begins where the pen is put down, before the st
   CHECK(result.max_error == Approx(0.003).epsilon(1e-6));
 }
 
-TEST_CASE("a stroke written out of order is an order mistake that names both strokes", "[practice]") {
+TEST_CASE("half a stroke is half covered, and the other half counts as far as it is from the ink", "[practice]") {
+  const PracticePage page = page_of("一");
+  const auto [start, end] = ends_of(page, 0, 0);
+  const double length = (end - start).norm();
+  Pen pen(page);
+  pen.draw(straight(start, 0.5 * (start + end)));
+  const CharacterScore result = pen.scores().front();
+  CHECK(result.strokes_written == 1);
+  CHECK(result.strokes_completed == 0);
+  CHECK(result.coverage == Approx(0.5).margin(0.011));
+  CHECK(result.rms_error < 1e-7);
+  CHECK(result.overall_error == Approx(length / std::sqrt(24.0)).epsilon(0.03));  // of x^2 over half of the length
+  CHECK(std::isnan(result.time));
+  CHECK(result.contour < 0.1);
+}
+
+TEST_CASE("a stroke that was not written is as far off as it is from the ink of the others", "[practice]") {
+  const PracticePage page = page_of("二");
+  const auto [start, end] = ends_of(page, 0, 0);
+  Pen pen(page);
+  pen.draw(0, 0);
+  const CharacterScore result = pen.scores().front();
+  CHECK(result.strokes_written == 1);
+  CHECK(result.rms_error < 1e-7);
+  CHECK(std::isnan(result.strokes[1].rms_error));
+  double least = 1.0, most = 0.0;  // from the ends of the second stroke to the first
+  const auto [left, right] = ends_of(page, 0, 1);
+  for (const Point& point : straight(left, right)) {
+    double nearest = 1.0;
+    for (const Point& ink : straight(start, end)) nearest = std::min(nearest, (ink - point).norm());
+    least = std::min(least, nearest);
+    most = std::max(most, nearest);
+  }
+  CHECK(result.strokes[1].overall_error > least);
+  CHECK(result.strokes[1].overall_error < most);
+  CHECK(result.overall_error < result.strokes[1].overall_error);
+  CHECK(result.overall_error > 0.5 * result.strokes[1].overall_error);
+}
+
+TEST_CASE("a stroke begun late is covered from there on", "[practice]") {
+  const PracticePage page = page_of("一");
+  const auto [start, end] = ends_of(page, 0, 0);
+  Pen pen(page);
+  pen.draw(straight(start + 0.3 * (end - start), end));
+  CHECK(pen.scores().front().coverage == Approx(0.7).margin(0.011));
+}
+
+TEST_CASE("a stroke beside its place is covered whole", "[practice]") {
+  const PracticePage page = page_of("一");
+  Pen pen(page);
+  pen.draw(0, 0, {0.0, 0.004});
+  const CharacterScore result = pen.scores().front();
+  CHECK(result.coverage == Approx(1.0).margin(0.011));
+  CHECK(result.rms_error == Approx(0.004).epsilon(0.01));
+}
+
+TEST_CASE("nothing written has no error and no time, and is counted", "[practice]") {
+  const PracticePage page = page_of("永");
+  Pen pen(page);
+  for (const CharacterScore& result : {score_page(page, Recording()).front(), pen.scores().front()}) {
+    CHECK(result.strokes_written == 0);
+    CHECK(result.match.count(StrokeRemarkKind::missing) == 5);
+    for (const double error : {result.rms_error, result.max_error, result.overall_error, result.time}) {
+      CHECK(std::isnan(error));
+    }
+    for (const double share :
+         {result.coverage, result.contour, result.external_sequence, result.internal_sequence, result.fidelity}) {
+      CHECK(share == 0.0);
+    }
+    const MeanScore mean = mean_score(std::span(&result, 1));
+    CHECK(std::isnan(mean.rms_error));
+    CHECK(mean.characters_written == 0);
+    CHECK(mean.characters == 1);
+  }
+}
+
+TEST_CASE("a mean says over how many of how many strokes it is", "[practice]") {
+  const PracticePage page = page_of("一");
+  std::vector<CharacterScore> scores;
+  for (const double shift : {0.001, 0.003}) {
+    Pen pen(page);
+    pen.draw(0, 0, {0.0, shift});
+    scores.push_back(pen.scores().front());
+  }
+  scores.push_back(Pen(page).scores().front());
+  const MeanScore mean = mean_score(scores);
+  CHECK(mean.characters == 3);
+  CHECK(mean.characters_written == 2);
+  CHECK(mean.stroke_count == 3);
+  CHECK(mean.strokes_written == 2);
+  CHECK(mean.rms_error == Approx(0.5 * (scores[0].rms_error + scores[1].rms_error)));
+  CHECK(mean.overall_error == Approx(0.5 * (scores[0].overall_error + scores[1].overall_error)));
+  CHECK(mean.coverage == Approx(2.0 / 3.0).margin(0.011));
+}
+
+TEST_CASE("two strokes written in each other's place are one order mistake, and both are measured", "[practice]") {
   Pen pen(page_of("永"));
-  pen.draw(0, 4);
-  for (int stroke = 0; stroke < 5; ++stroke) pen.draw(0, stroke);
+  for (const int stroke : {0, 1, 2, 4, 3}) pen.draw(0, stroke);
   const CharacterScore result = pen.scores().front();
   REQUIRE(result.order_mistakes() == 1);
-  CHECK(result.direction_mistakes() == 0);
-  CHECK(result.mistakes[0].stroke == 0);
-  CHECK(result.mistakes[0].reason.find("stroke 5") != std::string::npos);
-  CHECK(result.mistakes[0].reason.find("stroke 1") != std::string::npos);
-  CHECK(result.external_sequence == Approx(5.0 / 6.0));
+  CHECK(result.match.remarks.size() == 1);
+  CHECK(result.match.remarks[0].reason.find("stroke 5") != std::string::npos);
+  CHECK(result.match.remarks[0].reason.find("stroke 4") != std::string::npos);
+  CHECK(result.strokes_written == 5);
+  CHECK(result.strokes_completed < 5);  // the session waited for stroke 4, and then for 5
+  CHECK(result.rms_error < 1e-7);
+  CHECK(result.coverage == Approx(1.0));
+  CHECK(result.external_sequence == Approx(4.0 / 5.0));
   CHECK(result.internal_sequence == 1.0);
 }
 
-TEST_CASE("a stroke written twice is an order mistake", "[practice]") {
+TEST_CASE("a stroke written too early and once more in its place is an extra pen-down", "[practice]") {
   Pen pen(page_of("永"));
-  pen.draw(0, 0);
-  pen.draw(0, 1);
-  pen.draw(0, 1);
-  for (int stroke = 2; stroke < 5; ++stroke) pen.draw(0, stroke);
+  for (const int stroke : {4, 0, 1, 2, 3, 4}) pen.draw(0, stroke);
   const CharacterScore result = pen.scores().front();
-  REQUIRE(result.order_mistakes() == 1);
-  CHECK(result.mistakes[0].reason.find("again") != std::string::npos);
+  CHECK(result.order_mistakes() == 0);
+  CHECK(result.match.count(StrokeRemarkKind::extra) == 1);
   CHECK(result.strokes_completed == 5);
+  CHECK(result.external_sequence == Approx(5.0 / 6.0));
 }
 
-TEST_CASE("every stroke of every built-in character, written backwards, is a direction mistake and not accepted",
+TEST_CASE("every stroke of every built-in character, written backwards, is one direction mistake and not covered",
           "[practice]") {
   for (const Character& character : built_in_characters().characters) {
     const PracticePage page = lay_out(std::span(&character, 1)).front();
-    const auto drawn = strokes(character);
     for (int stroke = 0; stroke < character.stroke_count(); ++stroke) {
-      const auto& points = drawn[static_cast<std::size_t>(stroke)].control_points;
-      if ((points.front() - points.back()).norm() < 0.1) continue;  // a ring ends where it begins
+      const auto [start, end] = ends_of(page, 0, stroke);
+      if ((start - end).norm() < 0.004) continue;  // a ring ends where it begins
       CAPTURE(encode_utf8(character.code), stroke);
       Pen pen(page);
-      for (int i = 0; i < stroke; ++i) pen.draw(0, i);
-      pen.draw(0, stroke, Point::Zero(), true);
-      for (int i = stroke; i < character.stroke_count(); ++i) pen.draw(0, i);
+      for (int i = 0; i < character.stroke_count(); ++i) pen.draw(0, i, Point::Zero(), i == stroke);
       const CharacterScore result = pen.scores().front();
-      CHECK(result.strokes_completed == character.stroke_count());
       CHECK(result.direction_mistakes() == 1);
-      CHECK(result.order_mistakes() == 0);
+      CHECK(result.match.remarks.size() == 1);
+      CHECK(result.strokes_written == character.stroke_count());
+      CHECK(result.rms_error < 1e-6);
+      CHECK(result.strokes[static_cast<std::size_t>(stroke)].coverage == 0.0);
+      CHECK(result.internal_sequence == Approx(1.0 - 1.0 / character.stroke_count()));
     }
   }
 }
 
-TEST_CASE("a partly written page scores what was written and zero for the rest", "[practice]") {
+TEST_CASE("a stroke broken in two is covered but for its gap, two joined are each measured by themselves",
+          "[practice]") {
+  const PracticePage page = page_of("十");
+  const auto [start, end] = ends_of(page, 0, 0);
+  const Point along = end - start;
+  Pen broken(page);
+  broken.draw(straight(start, start + 0.5 * along));
+  broken.draw(straight(start + 0.6 * along, end));
+  broken.draw(0, 1);
+  const CharacterScore in_two = broken.scores().front();
+  CHECK(in_two.match.count(StrokeRemarkKind::broken) == 1);
+  CHECK(in_two.strokes[0].coverage == Approx(0.9).margin(0.015));
+  CHECK(in_two.strokes[1].coverage == Approx(1.0));
+
+  const auto [down, up] = ends_of(page, 0, 1);
+  std::vector<Point> path = straight(start, end);
+  for (const std::vector<Point>& next : {straight(end, down), straight(down, up)}) {
+    path.insert(path.end(), next.begin(), next.end());
+  }
+  Pen joined(page);
+  joined.draw(path);
+  const CharacterScore as_one = joined.scores().front();
+  REQUIRE(as_one.match.count(StrokeRemarkKind::joined) == 1);
+  CHECK(as_one.strokes_written == 2);
+  for (const StrokeScore& stroke : as_one.strokes) {
+    CHECK(stroke.pen_down == 0);
+    CHECK(stroke.coverage == Approx(1.0).margin(0.015));
+    CHECK(stroke.rms_error < 0.0003);
+  }
+}
+
+TEST_CASE("lost samples are left out and counted", "[practice]") {
+  const PracticePage page = page_of("永");
+  Pen pen(page);
+  for (int stroke = 0; stroke < 5; ++stroke) pen.draw(0, stroke, {0.0005, 0.0005});
+  const CharacterScore whole = pen.scores().front();
+  Recording recording = pen.recording();
+  for (const double wrong : {not_measured, std::numeric_limits<double>::infinity()}) {
+    for (std::size_t i = 0; i < recording.samples.size(); ++i) {
+      if (recording.samples[i].state == InteractionState::separation) continue;
+      Recording damaged = recording;
+      damaged.samples[i + 10].pen_tip.setConstant(wrong);
+      damaged.samples[i + 11].time = wrong;
+      const CharacterScore result = score_page(page, damaged).front();
+      CHECK(result.lost_samples == 2);
+      CHECK(result.rms_error == Approx(whole.rms_error).epsilon(0.01));
+      CHECK(result.overall_error == Approx(whole.overall_error).epsilon(0.01));
+      CHECK(result.strokes_written == 5);
+      break;
+    }
+  }
+}
+
+TEST_CASE("a pen-down is the character's in whose square it lies, whichever the session waited for", "[practice]") {
   Pen pen(page_of("永北"));
-  for (int stroke = 0; stroke < 5; ++stroke) pen.draw(0, stroke);
+  for (const int stroke : {0, 1, 2, 4, 3}) pen.draw(0, stroke);
   pen.draw(1, 0);
   const auto results = pen.scores();
   REQUIRE(results.size() == 2);
-  CHECK(results[0].strokes_completed == 5);
-  CHECK(results[1].strokes_completed == 1);
+  CHECK(results[0].strokes_written == 5);
+  CHECK(results[0].match.count(StrokeRemarkKind::extra) == 0);
+  CHECK(results[1].strokes_written == 1);
   CHECK(results[1].contour == Approx(0.2).epsilon(1e-3));
+  CHECK(results[1].pen_downs.size() == 1);
 }
 
-TEST_CASE("an empty recording scores zero", "[practice]") {
+TEST_CASE("the recording of another page is refused", "[practice]") {
   const PracticePage page = page_of("永");
-  const auto results = score_page(page, Recording());
-  REQUIRE(results.size() == 1);
-  CHECK(results[0].strokes_completed == 0);
-  CHECK(results[0].fidelity == 0.0);
+  Recording recording = write_page(page, session(WriterSkill::skilled(), FeedbackMode::force));
+  CHECK(score_page(page, recording).front().strokes_completed == 5);
+  CHECK(recording.page == page_id(page));
+
+  PracticePage moved = page, in_millimetres = page;
+  moved.characters[0].placement.origin.x() += 1e-6;
+  in_millimetres.characters[0].placement = {1e3 * page.characters[0].placement.origin, 40.0};
+  PracticePage elsewhere = page;
+  elsewhere.characters[0].placement.origin.x() += 0.06;
+  const PracticePage other = page_of("水"), shorter = page_of("一"), longer = page_of("永北");
+  using Pages = std::vector<const PracticePage*>;
+  for (const PracticePage* wrong : Pages{&moved, &in_millimetres, &elsewhere, &other, &shorter, &longer}) {
+    CHECK(page_id(*wrong) != page_id(page));
+    CHECK_THROWS_AS(score_page(*wrong, recording), ValueError);
+  }
+  recording.page = 0;  // made by hand, or by an earlier version
+  CHECK(score_page(page, recording).front().strokes_completed == 5);
+  for (const PracticePage* wrong : Pages{&in_millimetres, &elsewhere, &shorter}) {
+    CHECK_THROWS_AS(score_page(*wrong, recording), ValueError);
+  }
+  recording.samples[7].stroke = -1;
+  CHECK_THROWS_WITH(score_page(page, recording),
+                    "the recording is of another page: sample 7: stroke -1, expected 0 to 5");
+}
+
+TEST_CASE("a page that the renderer would refuse is refused by its score", "[practice]") {
+  PracticePage page = page_of("永");
+  page.characters[0].placement.em = 0.0;
+  CHECK_THROWS_AS(score_page(page, Recording()), ValueError);
+  CHECK(score_page(PracticePage(), Recording()).empty());
 }

@@ -13,7 +13,8 @@ from pathlib import Path
 
 from program import ProgramTest
 
-FIELDS = ["character", "mode", "time_s", "rms_error_mm", "max_error_mm", "order_mistakes", "direction_mistakes",
+FIELDS = ["character", "mode", "time_s", "rms_error_mm", "max_error_mm", "overall_error_mm", "coverage",
+          "order_mistakes", "direction_mistakes", "extra_pen_downs", "missing_strokes", "strokes_written", "remarks",
           "strokes_completed", "peak_force_N", "max_force_step_N", "tick_ns_p50", "tick_ns_p999"]
 
 
@@ -134,7 +135,7 @@ class Write(ProgramTest):
         for word in ("[s]", "[mm]", "[N]", "[ns]", "95 % interval", "20 characters in n = 10 pairs of runs"):
             self.assertIn(word, text)
         rows = [line for line in lines if line.startswith(("十", "人"))]
-        self.assertEqual([row.split()[1] for row in rows], ["vision", "force", "vision", "force"])
+        self.assertEqual([row.split()[1] for row in rows], 2 * ["vision", "force", "vision", "force"])
         by_run = {}  # one page and seed: its two characters are one draw
         for row in self.summary():
             sign = 1.0 if row["mode"] == "vision" else -1.0
@@ -145,6 +146,17 @@ class Write(ProgramTest):
         mean = statistics.mean(reduced)
         for word, value in ((words[2], mean), (words[-4], mean - half_width), (words[-2], mean + half_width)):
             self.assertAlmostEqual(float(word), value, delta=0.00051)
+
+    def test_what_was_not_written_has_no_error_and_the_means_say_over_how_much_they_are(self):
+        done = self.run_program("write", "永北", "--out", "out", "--rules", "wang2006", "--mode", "force")
+        written, none = self.summary()
+        self.assertIsNone(none["rms_error_mm"])
+        self.assertEqual((none["strokes_written"], none["missing_strokes"], none["coverage"]), (0, none["strokes"], 0.0))
+        row = next(line for line in done.stdout.splitlines() if line.startswith("北")).split()
+        self.assertEqual(row[2:6], ["-"] * 4)
+        mean = next(line for line in done.stdout.splitlines() if line.startswith("force "))
+        self.assertIn(f"RMS error {written['rms_error_mm']:.3f} mm over {written['strokes_written']} of "
+                      f"{written['strokes'] + none['strokes']} strokes", mean)
 
     def test_too_few_runs_to_show_an_effect_are_said_to_be_too_few(self):
         for repeat, words in (("1", "n = 1 pair of runs: too few to show an effect of force; try --repeat 20"),
@@ -261,8 +273,12 @@ class Write(ProgramTest):
         for trace, text in (("01-十", "十"), ("02-人", "人"), ("02-人", "十人")):
             done = self.run_program("write", text, "--out", "other", "--device", f"replay:first/{trace}-force.csv")
             self.assertIn("with the TEXT and the page options with which it was recorded", done.stderr)
-            rows = [line.split() for line in done.stdout.splitlines() if "force" in line]
-            self.assertEqual([row[3:5] for row in rows], [["-", "-"]] * len(text), done.stdout)
+            for row in self.summary("other"):  # on a page of another text the pen is elsewhere, or writes nothing
+                self.assertIsNone(row["time_s"])
+                self.assertEqual(row["strokes_completed"], 0)
+                if row["rms_error_mm"] is not None:
+                    self.assertGreater(row["rms_error_mm"], 10.0)
+                    self.assertLess(row["contour"], 0.01)
 
     def test_where_no_character_is_completed_more_repetitions_are_not_advised(self):
         for repeat, pairs in (("1", "1 pair"), ("2", "2 pairs")):

@@ -170,17 +170,31 @@ _COLUMNS: dict[str, type] = {
     "time": float,
     "rms_error": float,
     "max_error": float,
+    "overall_error": float,
+    "coverage": float,
     "peak_force": float,
     "max_force_step": float,
     "stroke_count": int,
+    "strokes_written": int,
     "strokes_completed": int,
     "order_mistakes": int,
     "direction_mistakes": int,
+    "extra_pen_downs": int,
+    "missing_strokes": int,
+    "lost_samples": int,
     "contour": float,
     "external_sequence": float,
     "internal_sequence": float,
     "fidelity": float,
     "simulated_time": float,
+}
+
+#: The columns that count remarks of cal.match_strokes().
+_REMARKS = {
+    "order_mistakes": cal.StrokeRemarkKind.order,
+    "direction_mistakes": cal.StrokeRemarkKind.direction,
+    "extra_pen_downs": cal.StrokeRemarkKind.extra,
+    "missing_strokes": cal.StrokeRemarkKind.missing,
 }
 
 
@@ -219,25 +233,17 @@ def trial(grid: Grid, condition: Condition) -> Row:
     page = cal.lay_out([character], grid.layout)[0]
     recording = cal.write_page(page, options)
     score = cal.score_page(page, recording)[0]
-    return {
+    row = {
         **condition._asdict(),
         "guidance_stiffness": square * renderer.guidance.stiffness,
         "paper_stiffness": square * renderer.paper.stiffness,
-        "time": score.time,
-        "rms_error": score.rms_error,
-        "max_error": score.max_error,
+        **{name: getattr(score, name) for name in _COLUMNS if hasattr(score, name)},
         "peak_force": grid.motion_scale * score.peak_force,
         "max_force_step": grid.motion_scale * score.max_force_step,
-        "stroke_count": score.stroke_count,
-        "strokes_completed": score.strokes_completed,
-        "order_mistakes": score.order_mistakes(),
-        "direction_mistakes": score.direction_mistakes(),
-        "contour": score.contour,
-        "external_sequence": score.external_sequence,
-        "internal_sequence": score.internal_sequence,
-        "fidelity": score.fidelity,
+        **{column: score.match.count(kind) for column, kind in _REMARKS.items()},
         "simulated_time": len(recording) / recording.rate,
     }
+    return {name: row[name] for name in _COLUMNS}
 
 
 def run(
@@ -307,16 +313,18 @@ class Reduction(NamedTuple):
 
     mean: float  #: NaN without a pair
     half_width: float  #: of the 95 % confidence interval; NaN with fewer than two draws
-    pairs: int  #: trials in both modes that completed every stroke
+    pairs: int  #: over which the mean is
     draws: int  #: independent ones
-    omitted: int  #: pairs that did not complete every stroke in both modes
+    omitted: int  #: pairs that were not finished, or not measured, in both modes
 
 
-def reduction(table: Any, column: str = "rms_error") -> Reduction:
+def reduction(table: Any, column: str = "rms_error", *, unfinished: bool = False) -> Reduction:
     """The reduction of a column of a table of run() with force, over pairs of trials that differ only in the mode.
 
     A seed and a character are one draw: trials of other writers, stiffnesses, rates or methods with the same ones share
     what the writer believes. The interval is clustered by draw, and uses Student's t (mean_interval).
+    unfinished: over all pairs that were measured, and not only over those that completed every stroke: for
+    "overall_error", which counts what was left out.
     Raises InvalidValue when the table lacks a column or a mode.
     """
     columns = _columns_of(table)
@@ -324,7 +332,9 @@ def reduction(table: Any, column: str = "rms_error") -> Reduction:
         if name not in columns:
             raise cal.InvalidValue(f"the table has no column {name!r}")
     values = np.asarray(columns[column], dtype=float)
-    complete = np.asarray(columns["strokes_completed"]) >= np.asarray(columns["stroke_count"])
+    usable = np.isfinite(values)
+    if not unfinished:
+        usable &= np.asarray(columns["strokes_completed"]) >= np.asarray(columns["stroke_count"])
     others = [np.asarray(columns[name]).tolist() for name in Condition._fields if name != "mode"]
     rows: dict[str, dict[tuple[Any, ...], int]] = {"vision": {}, "force": {}}
     for row, (mode, *condition) in enumerate(zip(np.asarray(columns["mode"]).tolist(), *others)):
@@ -333,7 +343,7 @@ def reduction(table: Any, column: str = "rms_error") -> Reduction:
         if not found:
             raise cal.InvalidValue(f"the table has no trial with mode {mode!r}")
     both = [(rows["vision"][condition], row) for condition, row in rows["force"].items() if condition in rows["vision"]]
-    pairs = np.array([pair for pair in both if complete[list(pair)].all()], dtype=int).reshape(-1, 2)
+    pairs = np.array([pair for pair in both if usable[list(pair)].all()], dtype=int).reshape(-1, 2)
     vision, force = values[pairs].T
     drawn = zip(np.asarray(columns["seed"])[pairs[:, 0]], np.asarray(columns["character"])[pairs[:, 0]])
     numbers: dict[Any, int] = {}

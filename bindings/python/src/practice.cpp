@@ -14,12 +14,12 @@ namespace calligraphy::python {
 namespace {
 
 /// A recording from a structured array with these columns.
-Recording recording_of(double rate, const ArrayLike& samples) {
+Recording recording_of(double rate, const ArrayLike& samples, std::uint32_t page) {
   const py::array rows = py::module_::import("numpy").attr("asarray")(samples, dtype_of_struct<RecordedSample>());
   if (rows.ndim() != 1) throw ValueError("samples: expected shape (n,), got " + shape_of(rows));
   if (!(std::isfinite(rate) && rate > 0.0))
     throw ValueError("rate: expected a finite number above 0, got " + std::to_string(rate));
-  Recording result{rate, std::vector<RecordedSample>(static_cast<std::size_t>(rows.size()))};
+  Recording result{rate, std::vector<RecordedSample>(static_cast<std::size_t>(rows.size())), page};
   for (std::size_t i = 0; i < result.samples.size(); ++i) {
     RecordedSample& sample = result.samples[i];
     std::memcpy(static_cast<void*>(&sample), rows.data(static_cast<py::ssize_t>(i)), sizeof sample);
@@ -85,19 +85,22 @@ Arrays pen_downs(const PenTrace& trace) {
 }  // namespace
 
 void add_practice(py::module_& module) {
-  add_types<PageLayout, PracticePage, DrawnStroke, StrokeRemark, MeanInterval, InkDetail, StrokeStyle>(module);
+  add_types<PageLayout, PracticePage, DrawnStroke, StrokeRemark, BoxMap, MeanInterval, InkDetail, StrokeStyle>(module);
   add_struct<WriterSkill>(module)
       .def_static("novice", &WriterSkill::novice)
       .def_static("skilled", &WriterSkill::skilled);
   add_struct<SessionOptions>(module);
+  add_struct<MatchResult>(module).def("count", &MatchResult::count, "kind"_a);
+  add_types<StrokeScore, PenDownTime, MeanScore>(module);
   add_struct<CharacterScore>(module)
       .def("order_mistakes", &CharacterScore::order_mistakes)
       .def("direction_mistakes", &CharacterScore::direction_mistakes);
 
   module.attr("sample_dtype") = dtype_of_struct<RecordedSample>();
   py::class_<Recording>(module, "Recording")
-      .def(py::init(&recording_of), "rate"_a, "samples"_a)
+      .def(py::init(&recording_of), "rate"_a, "samples"_a, "page"_a = 0)
       .def_readonly("rate", &Recording::rate)
+      .def_readonly("page", &Recording::page)
       .def_property_readonly("samples", &samples_of,
                              "A structured array (n,), a read-only view of the recording (sample_dtype).")
       .def("__len__", [](const Recording& self) { return self.samples.size(); });
@@ -137,14 +140,13 @@ void add_practice(py::module_& module) {
   module.def("run_session", reporting(&run_session), "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
              "+ motion(tick, seconds) takes a HapticTick and returns an Intention, or None to end.");
 
-  module.def("score_page", released(&score_page), "page"_a, "recording"_a);
+  module.def("page_id", &page_id, "page"_a);
+  module.def("score_page", released(&score_page), "page"_a, "recording"_a, "tolerances"_a = StrokeTolerances());
+  module.def(
+      "mean_score", [](const std::vector<CharacterScore>& scores) { return mean_score(scores); }, "scores"_a);
   module.def("page_picture", released(&page_picture), "page"_a, "recording"_a, "active"_a = 0, "title"_a = "",
              "style"_a = StrokeStyle::ink);
 
-  py::class_<MatchResult>(module, "MatchResult")
-      .def_readonly("drawn", &MatchResult::drawn)
-      .def_readonly("remarks", &MatchResult::remarks)
-      .def("count", &MatchResult::count, "kind"_a);
   module.def("match_strokes", &match_of, "character"_a, "paths"_a, "tolerances"_a = StrokeTolerances(),
              "+ Each path is an array (n, 2) [em].");
 

@@ -32,7 +32,7 @@ def test_values_that_are_not_members_are_rejected():
             cal.FeedbackMode(given)
     with pytest.raises(KeyError):
         cal.FeedbackMode["blind"]
-    for other in (cal.WritingMistakeKind.order, 1, None):  # numbers are rejected too
+    for other in (cal.StrokeRemarkKind.order, 1, None):  # numbers are rejected too
         with pytest.raises(TypeError):
             cal.SessionOptions(mode=other)
 

@@ -399,11 +399,13 @@ def by_hand(condition, device, renderer):
     page = cal.lay_out([cal.built_in_characters()[condition.character]], cal.PageLayout(width=width, height=height))[0]
     recording = cal.write_page(page, options)
     score = cal.score_page(page, recording)[0]
-    figures = {name: getattr(score, name) for name in score.fields if name not in ("character", "mistakes")}
+    lists = ("character", "match", "pen_downs", "strokes")
+    figures = {name: getattr(score, name) for name in score.fields if name not in lists}
     return {
         **condition._asdict(), **figures, "order_mistakes": score.order_mistakes(),
         "guidance_stiffness": clipped.guidance.stiffness, "paper_stiffness": clipped.paper.stiffness,
-        "direction_mistakes": score.direction_mistakes(), "simulated_time": len(recording) / recording.rate,
+        "direction_mistakes": score.direction_mistakes(), "extra_pen_downs": score.match.count("extra"),
+        "missing_strokes": score.match.count("missing"), "simulated_time": len(recording) / recording.rate,
     }  # fmt: skip
 
 
@@ -643,6 +645,39 @@ def test_one_draw_has_no_interval_and_no_pair_no_mean():
     unfinished = rows(("一", 1, "vision", 2.0, 5), ("一", 1, "force", 1.0, 4))
     nothing = experiment.reduction(experiment.to_table(unfinished))
     assert np.isnan(nothing.mean) and nothing.omitted == 1
+
+
+def test_what_was_not_measured_is_left_out_of_a_reduction_and_counted():
+    nan = float("nan")
+    pairs = rows(("一", 1, "vision", 2.0, 5), ("一", 1, "force", 1.0, 5), ("一", 2, "vision", nan, 0))
+    pairs += rows(("一", 2, "force", 1.0, 5), ("一", 3, "vision", 4.0, 3), ("一", 3, "force", 1.0, 5))
+    table = experiment.to_table(pairs)
+    finished = experiment.reduction(table)
+    assert (finished.mean, finished.pairs, finished.omitted) == (0.5, 1, 2)
+    measured = experiment.reduction(table, unfinished=True)
+    assert (measured.mean, measured.pairs, measured.omitted) == (0.625, 2, 1)
+    interval = cal.mean_interval([1.0, nan, 3.0], [1, 2, 3])
+    assert (interval.mean, interval.values, interval.draws, interval.missing) == (2.0, 2, 2, 1)
+
+
+def test_trials_in_which_nothing_was_written_do_not_count_as_the_best():
+    """A timeout before any writer touches the paper, and one after they have begun."""
+    none, some = (
+        [experiment.trial(grid, condition) for condition in grid]
+        for grid in (experiment.Grid("永", seeds=3, character_timeout=timeout) for timeout in (0.6, 1.0))
+    )
+    for row in none:
+        assert (row["strokes_written"], row["missing_strokes"], row["coverage"], row["fidelity"]) == (0, 5, 0.0, 0.0)
+        assert all(np.isnan(row[name]) for name in ("time", "rms_error", "max_error", "overall_error"))
+    for row in some:
+        assert (row["strokes_written"], row["missing_strokes"]) == (1, 4)
+        assert np.isnan(row["time"]) and 0.0 < row["rms_error"] < row["overall_error"]
+    pandas = pytest.importorskip("pandas")
+    means = pandas.DataFrame(none + some).groupby("mode").rms_error.agg(["mean", "count"])
+    for mode in ("vision", "force"):
+        errors = [row["rms_error"] for row in some if row["mode"] == mode]
+        assert means["count"][mode] == len(errors) == 3
+        assert means["mean"][mode] == pytest.approx(np.mean(errors))
 
 
 def test_a_table_that_cannot_show_a_reduction_is_refused_by_name():

@@ -64,7 +64,10 @@ def placed():
 OPTIONAL = {"mapping": lambda: records(cal.MotionMapping)}
 LISTS = {
     (cal.PracticePage, "characters"): placed,
-    (cal.CharacterScore, "mistakes"): lambda: records(cal.WritingMistake),
+    (cal.CharacterScore, "pen_downs"): lambda: records(cal.PenDownTime),
+    (cal.CharacterScore, "strokes"): lambda: records(cal.StrokeScore),
+    (cal.MatchResult, "drawn"): lambda: records(cal.DrawnStroke),
+    (cal.MatchResult, "remarks"): lambda: records(cal.StrokeRemark),
     (cal.StabilityMapOptions, "grips"): lambda: records(cal.GripImpedance),
     (cal.StabilityMapOptions, "delays"): lambda: st.integers(0, 9),
     **{(cal.StabilityMapOptions, n): lambda: NUMBERS for n in ("dampings", "rates", "encoder_steps", "wall_dampings")},
@@ -179,7 +182,7 @@ def test_a_bool_of_numpy_is_a_bool():
 def test_nan_equals_nan_in_every_field_type():
     nan = float("nan")
     assert cal.DeviceState() == cal.DeviceState() and cal.GripImpedance(mass=nan) == cal.GripImpedance(mass=nan) != cal.GripImpedance()
-    assert cal.WritingMistake(time=nan) in [cal.WritingMistake(time=nan)]
+    assert cal.PenDownTime(begin=nan) in [cal.PenDownTime(begin=nan)]
 
 
 @pytest.mark.parametrize("kind", RECORDS)
@@ -214,7 +217,7 @@ def _number(value):
     "owner, name, make",
     [
         (cal.PracticePage(), "characters", lambda: cal.PlacedCharacter(cal.built_in_characters()["永"])),
-        (cal.CharacterScore(), "mistakes", lambda: cal.WritingMistake(reason="so long that it is kept elsewhere")),
+        (cal.MatchResult(), "remarks", lambda: cal.StrokeRemark(reason="so long that it is kept elsewhere")),
         (cal.CharacterList(), "characters", lambda: cal.built_in_characters()["永"]),
     ],
     ids=lambda value: value if isinstance(value, str) else type(value).__name__,
@@ -230,10 +233,10 @@ def test_a_list_field_is_a_copy_that_outlives_its_owner(owner, name, make):
 
 
 def test_a_change_to_an_element_of_a_list_does_not_reach_its_owner():
-    score = cal.CharacterScore(mistakes=[cal.WritingMistake(stroke=1)])
-    score.mistakes[0].stroke = 2
-    score.mistakes.append(cal.WritingMistake())
-    assert score.mistakes == [cal.WritingMistake(stroke=1)]
+    score = cal.MatchResult(remarks=[cal.StrokeRemark(stroke=1)])
+    score.remarks[0].stroke = 2
+    score.remarks.append(cal.StrokeRemark())
+    assert score.remarks == [cal.StrokeRemark(stroke=1)]
 
 
 def test_unknown_fields_and_wrong_types_are_rejected():
@@ -321,7 +324,7 @@ def test_other_classes_have_a_one_line_repr(written):
         (characters["永"], "Character(永, 5 strokes)"),
         (cal.CharacterSet(characters), f"CharacterSet({len(characters.characters)} characters)"),
         (renderer, "HapticRenderer(page of 1 at 1000 Hz)"),
-        (recording, f"Recording(rate=1000.0, samples=array({len(recording)},))"),
+        (recording, f"Recording(rate=1000.0, samples=array({len(recording)},), page={recording.page})"),
         (cal.PenTrace("一", [[[0, 0, 0]]], set="mine"),
          "PenTrace(character='一', strokes=[[[0.0, 0.0, 0.0]]], set='mine', em=1000.0)"),
         (cal.CharacterList([], cal.Provenance(source="me")),
@@ -337,8 +340,9 @@ def test_the_repr_of_long_values_is_abbreviated_with_their_length():
     assert "attraction_factors=[0.0, 1.0], elements='', ink=None)" in repr(cal.StrokeInput(1, [[0, 0], [1, 1]], [0.0, 1.0]))
     licence = repr(cal.Provenance(licence_text="word " * 1000))
     assert "licence_text='word word" in licence and "... 5000 characters in all" in licence and len(licence) < 200
-    score = repr(cal.CharacterScore(character="永", mistakes=[cal.WritingMistake(reason="x")]))
-    assert score.startswith("CharacterScore(character='永', time=0.0") and "mistakes=[WritingMistake(kind=" in score
+    match = cal.MatchResult(remarks=[cal.StrokeRemark(reason="x")])
+    score = repr(cal.CharacterScore(character="永", match=match))
+    assert score.startswith("CharacterScore(character='永', time=nan") and "remarks=[StrokeRemark(kind=" in score
 
 
 def test_objects_that_own_a_device_or_a_file_cannot_be_pickled():

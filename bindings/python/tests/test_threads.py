@@ -192,7 +192,8 @@ import calligraphy as cal
 device, characters = cal.device_profile("desktop"), cal.built_in_characters()
 page = cal.lay_out([characters["一"]])[0]
 options = cal.SessionOptions(device=device, renderer=cal.RendererOptions.for_device(device))
-recording = cal.write_page(page, options)
+written = cal.write_page(page, options)
+recording = cal.Recording(written.rate, written.samples)  # of any page
 many, everything = page.characters * 50, list(characters)
 calls = {
     "score": (lambda page: repr(cal.score_page(page, recording)), cal.PracticePage(width=0.16, height=0.12), many),

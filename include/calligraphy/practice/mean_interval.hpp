@@ -18,8 +18,9 @@ struct DrawnValue {
 struct MeanInterval {
   double mean = 0.0;        ///< of the values; NaN if there are none
   double half_width = 0.0;  ///< of the 95 % confidence interval of the mean; NaN with fewer than two draws
-  std::size_t values = 0;   ///< number of values
-  std::size_t draws = 0;    ///< number of independent draws
+  std::size_t values = 0;   ///< number of values, without those that are missing
+  std::size_t draws = 0;    ///< number of independent draws among them
+  std::size_t missing = 0;  ///< number of values that are NaN: not measured, and left out
 };
 
 /// The mean of values in clusters, by draw. With S_g the sum of a cluster's deviations from the mean of all n values,

@@ -1,6 +1,7 @@
 // Pages of characters, laid out in rows to fit the workspace of a device.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct PracticePage {
   double height = 0.0;                      ///< of the paper, from its lower left corner [m]
   std::vector<PlacedCharacter> characters;  ///< in the order in which they are to be written
 };
+
+/// A number for the characters of a page, the shapes of their strokes and where they lie: of two pages that differ, it
+/// is the same by chance once in four thousand million times. Never 0.
+std::uint32_t page_id(const PracticePage& page);
 
 /// Lays the characters out from left to right and top to bottom on as many pages as needed, the rows centred on each.
 /// @throws ValueError when a length is not a positive number or no square fits

@@ -32,10 +32,11 @@ struct RecordedSample {
 struct Recording {
   double rate = 1000.0;                 ///< samples per second [Hz]
   std::vector<RecordedSample> samples;  ///< one per tick, in order
+  std::uint32_t page = 0;               ///< page_id() of the page that was written; 0: unknown
 };
 
-/// Writes comma-separated values: the first line names columns and units, the second, a comment, gives the rate.
-/// Numbers are independent of the locale and in the shortest form that reads back exactly; events are the sum of
+/// Writes comma-separated values: the first line names columns and units, the second, a comment, gives the rate and the
+/// page. Numbers are independent of the locale and in the shortest form that reads back exactly; events are the sum of
 /// TickEvent's bits.
 void write_recording(std::ostream& out, const Recording& recording);
 

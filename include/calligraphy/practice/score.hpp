@@ -1,55 +1,93 @@
-// Scores of a written page: one criterion per perceptible element, and every mistake with its reason (Wang 2006,
+// Scores of a written page: what was written of each stroke, how far off, and every mistake with its reason (Wang 2006,
 // sec. 2.2).
 #pragma once
 
-#include <string>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/recording.hpp>
+#include <calligraphy/practice/stroke_matching.hpp>
 
 namespace calligraphy {
 
-/// Kind of a mistake that a score counts.
-enum class WritingMistakeKind {
-  order,     ///< external sequence: a stroke was written out of order
-  direction  ///< internal sequence: a stroke was written backwards
+/// A quantity that was not measured.
+inline constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
+
+/// What was written of a stroke of the character.
+struct StrokeScore {
+  int pen_down = -1;                ///< the first one that wrote it, an index into MatchResult::drawn; -1: none
+  bool completed = false;           ///< the session took it for finished
+  double coverage = 0.0;            ///< share of its length that was written in order [1]
+  double rms_error = not_measured;  ///< distance of the pen from the stroke, over the length of the pen's path [m]
+  double max_error = not_measured;  ///< the largest distance of the pen from the stroke [m]
+  /// `rms_error` with what was left out: the rest of the stroke, over its length, as far as it is from what was written
+  /// of it. Of a stroke that was not written, all of it, as far as it is from any ink of the character [m].
+  double overall_error = not_measured;
 };
 
-/// A mistake of the writer.
-struct WritingMistake {
-  WritingMistakeKind kind;  ///< of order or of direction
-  int stroke;               ///< the expected stroke, from 0
-  double time;              ///< of the pen-down [s]
-  std::string reason;       ///< one line of explanation for people
+/// When a pen-down began and ended.
+struct PenDownTime {
+  double begin = 0.0;  ///< [s]
+  double end = 0.0;    ///< [s]
 };
 
-/// Score of a written character.
+/// Score of a written character. What was not measured is NaN: errors where no stroke was written, the time of a
+/// character that was not completed.
 struct CharacterScore {
   char32_t character = 0;  ///< its Unicode code point
-  /// From the first pen-down (or the end of the previous character) to the end of the last stroke [s].
-  double time = 0.0;
-  double rms_error = 0.0;                ///< lateral, over the arc length of the completed strokes [m]
-  double max_error = 0.0;                ///< lateral, over the same [m]
-  int stroke_count = 0;                  ///< strokes of the character
-  int strokes_completed = 0;             ///< of these, strokes that the writer finished
-  double peak_force = 0.0;               ///< on the page (RecordedSample::force) [N]
-  double max_force_step = 0.0;           ///< of that, from one tick to the next [N]
-  std::vector<WritingMistake> mistakes;  ///< in the order of writing
+  /// From the first pen-down to the end of the last stroke; NaN unless the character was completed [s].
+  double time = not_measured;
+  double rms_error = not_measured;  ///< of the strokes written: distance of the pen, over the length of its path [m]
+  double max_error = not_measured;  ///< of the strokes written: the largest distance of the pen [m]
+  /// `rms_error` with what was left out, of all strokes (StrokeScore::overall_error): a character that was broken off
+  /// does not gain by it. NaN if there is no ink [m].
+  double overall_error = not_measured;
+  double coverage = 0.0;        ///< share of the length of all strokes that was written in order [1]
+  int stroke_count = 0;         ///< strokes of the character
+  int strokes_written = 0;      ///< of these, strokes that a pen-down wrote, wholly or in part: those of `rms_error`
+  int strokes_completed = 0;    ///< of these, strokes that the session took for finished
+  int lost_samples = 0;         ///< samples without a usable position (TickStatus), left out of everything above
+  double peak_force = 0.0;      ///< on the page (RecordedSample::force) [N]
+  double max_force_step = 0.0;  ///< of that, from one tick to the next [N]
+  MatchResult match;            ///< what each pen-down wrote, and every mistake
+  std::vector<PenDownTime> pen_downs;  ///< of those in `match`
+  std::vector<StrokeScore> strokes;    ///< one per stroke of the character
 
-  // The perceptible elements of Fig. 2, each in [0, 1].
-  double contour = 0.0;            ///< exp(-rms error / 5 % of the em), in [0, 1]; 0 for strokes not completed
-  double external_sequence = 0.0;  ///< completed strokes / (completed + order mistakes), in [0, 1]
-  double internal_sequence = 0.0;  ///< completed strokes / (completed + direction mistakes), in [0, 1]
-  double fidelity = 0.0;           ///< geometric mean of the three, in [0, 1]
+  // The perceptible elements of Fig. 2, each in [0, 1]. A stroke that was not written counts as 0 in each.
+  /// Mean of exp(-StrokeScore::overall_error / 5 % of the em) over all strokes.
+  double contour = 0.0;
+  double external_sequence = 0.0;  ///< strokes written in order / (all strokes + extra pen-downs)
+  double internal_sequence = 0.0;  ///< strokes not written backwards / all strokes
+  double fidelity = 0.0;           ///< geometric mean of the three
 
   /// Number of strokes written out of order.
-  int order_mistakes() const noexcept;
+  int order_mistakes() const noexcept { return match.count(StrokeRemarkKind::order); }
   /// Number of strokes written backwards.
-  int direction_mistakes() const noexcept;
+  int direction_mistakes() const noexcept { return match.count(StrokeRemarkKind::direction); }
 };
 
-/// One score per character of the page.
-std::vector<CharacterScore> score_page(const PracticePage& page, const Recording& recording);
+/// One score per character of the page. A pen-down belongs to the character in whose square it lies, or to the nearest;
+/// which of its strokes it wrote, in which order and direction, match_strokes() tells. Distances are those on the page,
+/// without the alignment by which match_strokes() recognises what is meant.
+/// @throws ValueError when the page or a tolerance is invalid, when the recording was made on another page
+/// (Recording::page, or events that this page cannot have had), or as match_strokes()
+std::vector<CharacterScore> score_page(const PracticePage& page, const Recording& recording,
+                                       const StrokeTolerances& tolerances = {});
+
+/// Means over characters, and over how much of them.
+struct MeanScore {
+  double rms_error = not_measured;      ///< over the characters of which a stroke was written [m]
+  double overall_error = not_measured;  ///< over the same, what was left out included [m]
+  double coverage = not_measured;       ///< over all characters [1]
+  int characters = 0;                   ///< all of them
+  int characters_written = 0;           ///< those of which a stroke was written
+  int stroke_count = 0;                 ///< strokes of all characters
+  int strokes_written = 0;              ///< of these, those over which `rms_error` is
+};
+
+/// The mean of scores: of a page, or of one character written several times.
+MeanScore mean_score(std::span<const CharacterScore> scores);
 
 }  // namespace calligraphy

@@ -1,0 +1,26 @@
+// The pen-downs of a recording: from each touch to the lift.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include <calligraphy/practice/pen_trace.hpp>
+#include <calligraphy/practice/recording.hpp>
+
+namespace calligraphy {
+
+/// Whether the pen's position is known.
+inline bool is_usable(const RecordedSample& sample) noexcept {
+  return sample.status == TickStatus::ok && sample.pen_tip.allFinite() && std::isfinite(sample.time);
+}
+
+/// One pen-down on the page.
+struct PenDown {
+  int character = 0;  ///< the one that was active when it began
+  PenStroke samples;  ///< usable ones on the paper [m, s]
+};
+
+/// A lift of at most 50 ms is a bounce and ends no pen-down, nor does it end where samples are lost for no longer.
+std::vector<PenDown> pen_downs(const Recording& recording);
+
+}  // namespace calligraphy

@@ -1,0 +1,78 @@
+#include "recorded_page.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <calligraphy/base/error.hpp>
+
+#include "base/require.hpp"
+
+namespace calligraphy {
+namespace {
+
+/// In a recording of the page the pen was this near to half of the strokes when it finished them [em].
+constexpr double max_finish_distance = 0.25;
+
+[[noreturn]] void refuse(const std::string& why) { throw ValueError("the recording is of another page: " + why); }
+
+int stroke_count(const PracticePage& page, int character) {
+  const auto i = static_cast<std::size_t>(character);
+  return i < page.characters.size() ? page.characters[i].character.stroke_count() : 0;
+}
+
+void require_indices(const PracticePage& page, const RecordedSample& sample, std::size_t index) {
+  const auto require = [&](const char* what, int value, int most) {
+    if (0 <= value && value <= most) return;
+    refuse("sample " + std::to_string(index) + ": " + what + ' ' + std::to_string(value) + ", expected 0 to " +
+           std::to_string(most));
+  };
+  require("character", sample.character, static_cast<int>(page.characters.size()));
+  require("stroke", sample.stroke, stroke_count(page, sample.character));
+  if (has_event(sample.events, TickEvent::stroke_finished) && sample.character == 0) {
+    require("finished stroke", sample.stroke - 1, stroke_count(page, 0));
+  }
+}
+
+double distance_to_finished(const PracticePage& page, const RecordedSample& sample) {
+  const auto [character, stroke] = finished_stroke(page, sample);
+  const PlacedCharacter& placed = page.characters[character];
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const StrokeElement& element : place_elements(strokes(placed.character)[stroke], placed.placement)) {
+    nearest = std::min(nearest, nearest_point(element, sample.pen_tip.head<2>()).distance);
+  }
+  return nearest / placed.placement.em;
+}
+
+}  // namespace
+
+StrokeIndex finished_stroke(const PracticePage& page, const RecordedSample& sample) {
+  const bool is_same = sample.stroke > 0;
+  const int character = is_same ? sample.character : sample.character - 1;
+  const int stroke = is_same ? sample.stroke - 1 : stroke_count(page, character) - 1;
+  return {static_cast<std::size_t>(character), static_cast<std::size_t>(stroke)};
+}
+
+void require_same_page(const PracticePage& page, const Recording& recording) {
+  const std::uint32_t id = page_id(page);
+  if (recording.page != 0 && recording.page != id) {
+    refuse("its page_id() is " + std::to_string(recording.page) + ", that of the page " + std::to_string(id));
+  }
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < recording.samples.size(); ++i) {
+    const RecordedSample& sample = recording.samples[i];
+    require_indices(page, sample, i);
+    const bool is_finish = has_event(sample.events, TickEvent::stroke_finished);
+    if (is_finish && sample.pen_tip.allFinite()) distances.push_back(distance_to_finished(page, sample));
+  }
+  if (distances.empty()) return;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  if (*middle > max_finish_distance) {
+    refuse("the strokes that it finished are " + number_text(*middle) + " em from the pen (median)");
+  }
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,71 @@
+#include "stroke_alignment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <calligraphy/practice/pen_path.hpp>
+
+#include "resemblance.hpp"
+
+namespace calligraphy {
+namespace {
+
+/// The points of a longer path are further apart than those of the line.
+constexpr double max_path_points = 4000.0;
+
+/// From which pair an optimal alignment came to this one.
+enum class Move : std::uint8_t { begin, both, path, line };
+
+}  // namespace
+
+Alignment align(std::span<const Point> path, std::span<const Point> line) {
+  const double spacing = path_length(line) / static_cast<double>(line.size() - 1);
+  const double length = path_length(path);
+  const double pieces = spacing > 0.0 ? std::clamp(std::ceil(length / spacing), 1.0, max_path_points) : 1.0;
+  const auto rows = static_cast<std::size_t>(pieces) + 1, columns = line.size();
+  const std::vector<Point> pen = even_points(path, length, rows);
+  std::vector<Move> moves(rows * columns, Move::begin);
+  std::vector<double> above, cost(columns);
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      double least = i == 0 ? 0.0 : std::numeric_limits<double>::infinity();
+      Move from = Move::begin;
+      const auto take = [&](double other, Move move) {
+        if (other < least) least = other, from = move;
+      };
+      if (i > 0 && j > 0) take(above[j - 1], Move::both);
+      if (i > 0) take(above[j], Move::path);
+      if (i > 0 && j > 0) take(cost[j - 1], Move::line);
+      cost[j] = least + (pen[i] - line[j]).norm();
+      moves[i * columns + j] = from;
+    }
+    above = cost;
+  }
+  Alignment result;
+  std::size_t i = rows - 1;
+  auto j = static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+  const auto share = [columns](std::size_t column) {
+    return static_cast<double>(column) / static_cast<double>(columns - 1);
+  };
+  result.end = share(j);
+  std::vector<double> places(rows);
+  for (Move move = moves[i * columns + j];; move = moves[i * columns + j]) {
+    places[i] = share(j);
+    if (move == Move::begin) break;
+    if (move != Move::line) --i;
+    if (move != Move::path) --j;
+  }
+  result.begin = share(j);
+  // Of the path's own points, from those at even steps of its length.
+  double way = 0.0;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    if (k > 0) way += (path[k] - path[k - 1]).norm();
+    const double row = length > 0.0 ? way / length * pieces : 0.0;
+    result.places.push_back(places[std::min(static_cast<std::size_t>(row), rows - 1)]);
+  }
+  return result;
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,22 @@
+// How far along a line a pen was, in order: the part of the line that its path follows.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <calligraphy/model/point.hpp>
+
+namespace calligraphy {
+
+/// Where a path lies along a line.
+struct Alignment {
+  double begin = 0.0, end = 0.0;  ///< the part of the line that the path follows, from and to this share of it [1]
+  std::vector<double> places;     ///< of each point of the path, a share of the line, never decreasing [1]
+};
+
+/// Aligns all of a path with the part of a line that it follows at the least mean distance, in order: subsequence
+/// dynamic time warping (Müller, Information Retrieval for Music and Motion, 2007, sec. 4.4) of points at even steps.
+/// The line has at least two points, and the path one.
+Alignment align(std::span<const Point> path, std::span<const Point> line);
+
+}  // namespace calligraphy
