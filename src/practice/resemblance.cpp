@@ -18,12 +18,11 @@ Point mean_of(const Outline& outline) {
 
 }  // namespace
 
-Outline outline(std::span<const Point> path, double length) {
-  Outline result;
-  const double step = length / static_cast<double>(result.size() - 1);
+void points_along(std::span<const Point> path, double length, std::span<Point> points) {
+  const double step = length / static_cast<double>(points.size() - 1);
   double before = 0.0;  // length up to path[at]
   std::size_t at = 0;
-  for (std::size_t k = 0; k < result.size(); ++k) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
     const double wanted = step * static_cast<double>(k);
     double next = at + 1 < path.size() ? (path[at + 1] - path[at]).norm() : 0.0;
     while (at + 2 < path.size() && before + next < wanted) {
@@ -32,8 +31,13 @@ Outline outline(std::span<const Point> path, double length) {
       next = (path[at + 1] - path[at]).norm();
     }
     const double share = next > 0.0 ? std::clamp((wanted - before) / next, 0.0, 1.0) : 0.0;
-    result[k] = at + 1 < path.size() ? Point(path[at] + share * (path[at + 1] - path[at])) : path[at];
+    points[k] = at + 1 < path.size() ? Point(path[at] + share * (path[at + 1] - path[at])) : path[at];
   }
+}
+
+Outline outline(std::span<const Point> path, double length) {
+  Outline result;
+  points_along(path, length, result);
   return result;
 }
 

@@ -10,10 +10,14 @@
 
 namespace calligraphy {
 
+/// Sets two or more points at even steps of the first `length` of a path, its ends included. A path has at least one
+/// point; one without length stays there.
+void points_along(std::span<const Point> path, double length, std::span<Point> points);
+
 /// Points of a path at even steps of its length, the ends included.
 using Outline = std::array<Point, 32>;
 
-/// Of the first `length` of a path, or of all of it. A path has at least one point; one without length stays there.
+/// Of the first `length` of a path, or of all of it, by points_along().
 Outline outline(std::span<const Point> path, double length);
 Outline outline(std::span<const Point> path);
 
