@@ -52,12 +52,11 @@ TEST_CASE("the DTW distance of a straight path shifted across its direction is t
 TEST_CASE("the DTW distance of small cases is as computed by hand", "[practice]") {
   const PenPath dot = {{0.0, 0.0}}, along = {{0.0, 0.0}, {1.0, 0.0}};
   CHECK(dtw_distance(dot, PenPath{{0.3, 0.4}}) == Approx(0.5));
-  // Points of the line are k / 63, of the dot all 0. A row with cost c that is visited m times weighs at least c each
-  // time, so the best path is the cheapest that visits all columns and rows: 63 rows more at the first column, at no
-  // cost, and then each further column once with weight 1: the sum of k / 63 is 32, the distance 32 / 128.
-  CHECK(dtw_distance(dot, along) == Approx(0.25).epsilon(1e-12));
-  // Shifted by one step along itself, all points but an end coincide with others: the first of one is paired with the
-  // first of the other (2 / 63), and the last with the last by a step of weight 1 (1 / 63).
+  // The points of the line are k / 63, those of the dot all 0. Every pair with the first of the line is free, and each
+  // further point of the line is paired at least once, with weight 1: the sum of k / 63 is 32.
+  CHECK(dtw_distance(dot, along) == Approx(32.0 / 128.0).epsilon(1e-12));
+  // One step ahead, all points but the ends coincide: the two first ones cost 2 / 63, the two last ones, reached by a
+  // step of weight 1, cost 1 / 63.
   const PenPath ahead = {{1.0 / 63.0, 0.0}, {64.0 / 63.0, 0.0}};
   CHECK(dtw_distance(along, ahead) == Approx(3.0 / 63.0 / 128.0).epsilon(1e-9));
 }

@@ -95,7 +95,7 @@ def check(traces, least):
     """Compares every pen-down, and every two neighbours; returns the measures."""
     measures = []
     for trace in traces:
-        downs = [down for down in trace.strokes if np.ptp(down[:, 2]) >= 0.05]
+        downs = [down for down in trace.strokes if np.ptp(down[:, 2]) >= 0.05 and np.ptp(down[:, :2], axis=0).any()]
         for down in downs:
             measured = cal.pen_kinematics(down)
             for name, value in expected(down).items():
