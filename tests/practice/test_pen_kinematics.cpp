@@ -140,6 +140,8 @@ TEST_CASE("a tremor above the band of the hand is filtered out, one within is no
   };
   CHECK(shaking(10.0).peak_speed == Approx(0.01 * turn * 10.0 * std::sqrt(0.5)).epsilon(0.03));  // -3 dB
   CHECK(shaking(2.0).peak_speed == Approx(0.01 * turn * 2.0 * std::pow(0.5, 0.5 * 0.04)).epsilon(0.01));
+  // The speed of 7 Hz to and fro has 14 Hz, beyond the spectrum that counts for smoothness (by NumPy, as above).
+  CHECK(shaking(7.0).smoothness == Approx(-2.3733573383).epsilon(1e-9));
   CHECK(shaking(40.0).peak_speed < 0.02 * 0.01 * turn * 40.0);
 }
 

@@ -92,7 +92,7 @@ def dtw(one, other, count=64):
 
 
 def check(traces, least):
-    """Compares every pen-down, and every two neighbours; returns the measures."""
+    """Compares every pen-down that moves for long enough, and every two neighbours; returns the measures."""
     measures = []
     for trace in traces:
         downs = [down for down in trace.strokes if np.ptp(down[:, 2]) >= 0.05 and np.ptp(down[:, :2], axis=0).any()]
@@ -112,6 +112,17 @@ def check(traces, least):
 def test_written_examples_are_measured_as_defined():
     measures = check(cal.read_pen_traces(ROOT / "examples" / "pupil.txt"), least=6)
     assert all(-2.5 < each.smoothness < -1.3 and 1 <= each.velocity_peaks <= 5 for each in measures)
+
+
+@pytest.mark.parametrize("seconds", [0.06, 0.3, 2.0, 26.0])
+def test_restless_pens_are_measured_as_defined(seconds):
+    """Random walks at uneven times, some of them repeated, also longer than what is sampled at 200 Hz."""
+    random = np.random.default_rng(7)
+    for _ in range(12):
+        times = np.sort(np.round(random.uniform(0, seconds, int(120 * seconds)), 3))
+        times[[0, -1]] = 0, seconds
+        walk = random.normal(0, 0.01, (len(times), 2)).cumsum(axis=0)
+        check([cal.PenTrace("一", [np.column_stack([walk, times + 80_000])])], least=1)
 
 
 @people
