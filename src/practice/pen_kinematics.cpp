@@ -32,7 +32,7 @@ void refuse_bad_samples(std::span<const TimedPoint> samples) {
   }
 }
 
-/// A pen-down at even steps, relative to its first point so that a pen at rest has no speed from rounding.
+/// A pen-down at even steps.
 struct EvenPath {
   std::vector<Point> points;
   double step = 0.0;  // [s]
@@ -44,7 +44,6 @@ EvenPath resampled(std::span<const TimedPoint> samples) {
     if (!distinct.empty() && sample.time == distinct.back().time) distinct.pop_back();
     distinct.push_back({sample.point, sample.time});
   }
-  const Point origin = distinct.front().point;
   const double start = distinct.front().time, duration = distinct.back().time - start;
   const double wanted = std::clamp(std::round(resampling_rate * duration), 1.0, double{max_resampled - 1});
   const auto steps = static_cast<std::size_t>(distinct.size() > 1 ? wanted : 0.0);
@@ -56,9 +55,9 @@ EvenPath resampled(std::span<const TimedPoint> samples) {
     while (at + 2 < distinct.size() && distinct[at + 1].time - start <= time) ++at;
     const TimedPoint &from = distinct[at], &to = distinct[at + 1];
     const double share = std::min((time - (from.time - start)) / (to.time - from.time), 1.0);
-    path.points.push_back(from.point - origin + share * (to.point - from.point));
+    path.points.push_back(from.point + share * (to.point - from.point));
   }
-  path.points.push_back(distinct.back().point - origin);
+  path.points.push_back(distinct.back().point);
   return path;
 }
 
