@@ -38,9 +38,11 @@
 #include <calligraphy/model/stroke_polyline.hpp>
 #include <calligraphy/model/typical_ink.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
+#include <calligraphy/practice/dtw_distance.hpp>
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/mean_interval.hpp>
 #include <calligraphy/practice/page.hpp>
+#include <calligraphy/practice/pen_kinematics.hpp>
 #include <calligraphy/practice/pen_path.hpp>
 #include <calligraphy/practice/pen_trace.hpp>
 #include <calligraphy/practice/recording.hpp>

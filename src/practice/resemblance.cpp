@@ -18,13 +18,11 @@ Point mean_of(const Outline& outline) {
 
 }  // namespace
 
-std::vector<Point> even_points(std::span<const Point> path, double length, std::size_t count) {
-  std::vector<Point> result;
-  result.reserve(count);
-  const double step = length / static_cast<double>(count - 1);
+void points_along(std::span<const Point> path, double length, std::span<Point> points) {
+  const double step = length / static_cast<double>(points.size() - 1);
   double before = 0.0;  // length up to path[at]
   std::size_t at = 0;
-  for (std::size_t k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
     const double wanted = step * static_cast<double>(k);
     double next = at + 1 < path.size() ? (path[at + 1] - path[at]).norm() : 0.0;
     while (at + 2 < path.size() && before + next < wanted) {
@@ -33,15 +31,19 @@ std::vector<Point> even_points(std::span<const Point> path, double length, std::
       next = (path[at + 1] - path[at]).norm();
     }
     const double share = next > 0.0 ? std::clamp((wanted - before) / next, 0.0, 1.0) : 0.0;
-    result.push_back(at + 1 < path.size() ? Point(path[at] + share * (path[at + 1] - path[at])) : path[at]);
+    points[k] = at + 1 < path.size() ? Point(path[at] + share * (path[at + 1] - path[at])) : path[at];
   }
-  return result;
+}
+
+std::vector<Point> points_along(std::span<const Point> path, double length, std::size_t count) {
+  std::vector<Point> points(count);
+  points_along(path, length, points);
+  return points;
 }
 
 Outline outline(std::span<const Point> path, double length) {
   Outline result;
-  const std::vector<Point> points = even_points(path, length, result.size());
-  std::copy(points.begin(), points.end(), result.begin());
+  points_along(path, length, result);
   return result;
 }
 

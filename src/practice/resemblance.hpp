@@ -10,14 +10,16 @@
 
 namespace calligraphy {
 
-/// `count` points, at least two, at even steps along the first `length` of a path, the ends included. A path has at
-/// least one point; one without length stays there.
-std::vector<Point> even_points(std::span<const Point> path, double length, std::size_t count);
+/// Sets two or more points at even steps of the first `length` of a path, its ends included. A path has at least one
+/// point; one without length stays there.
+void points_along(std::span<const Point> path, double length, std::span<Point> points);
+/// `count` such points.
+std::vector<Point> points_along(std::span<const Point> path, double length, std::size_t count);
 
 /// Points of a path at even steps of its length, the ends included.
 using Outline = std::array<Point, 32>;
 
-/// Of the first `length` of a path, or of all of it.
+/// Of the first `length` of a path, or of all of it, by points_along().
 Outline outline(std::span<const Point> path, double length);
 Outline outline(std::span<const Point> path);
 

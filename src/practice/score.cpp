@@ -68,7 +68,7 @@ struct Template {
   Template(const Stroke& stroke, const Placement& placement) : elements(place_elements(stroke, placement)) {
     const std::vector<Point> fine = middle_line(stroke, placement);
     length = path_length(fine);
-    line = even_points(fine, length, line_points);
+    line = points_along(fine, length, line_points);
   }
 
   double distance_from(const Point& tip) const {
@@ -147,7 +147,7 @@ class CharacterScorer {
     const std::vector<Point> points = points_of(downs_[path]->samples);
     const bool backwards = drawn.direction == WritingDirection::backwards;
     const JoinedLine line = join(drawn, backwards);
-    const Alignment whole = align(points, even_points(line.points, path_length(line.points), line.points.size()));
+    const Alignment whole = align(points, points_along(line.points, path_length(line.points), line.points.size()));
     for (const LinePart& part : line.parts) {
       Written& written = written_[part.stroke];
       if (!add_error(points, whole, part, written.error)) continue;

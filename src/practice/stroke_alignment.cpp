@@ -25,7 +25,7 @@ Alignment align(std::span<const Point> path, std::span<const Point> line) {
   const double length = path_length(path);
   const double pieces = spacing > 0.0 ? std::clamp(std::ceil(length / spacing), 1.0, max_path_points) : 1.0;
   const auto rows = static_cast<std::size_t>(pieces) + 1, columns = line.size();
-  const std::vector<Point> pen = even_points(path, length, rows);
+  const std::vector<Point> pen = points_along(path, length, rows);
   std::vector<Move> moves(rows * columns, Move::begin);
   std::vector<double> above, cost(columns);
   for (std::size_t i = 0; i < rows; ++i) {

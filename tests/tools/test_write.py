@@ -273,12 +273,14 @@ class Write(ProgramTest):
         for trace, text in (("01-十", "十"), ("02-人", "人"), ("02-人", "十人")):
             done = self.run_program("write", text, "--out", "other", "--device", f"replay:first/{trace}-force.csv")
             self.assertIn("with the TEXT and the page options with which it was recorded", done.stderr)
-            for row in self.summary("other"):  # on a page of another text the pen is elsewhere, or writes nothing
-                self.assertIsNone(row["time_s"])
-                self.assertEqual(row["strokes_completed"], 0)
-                if row["rms_error_mm"] is not None:
-                    self.assertGreater(row["rms_error_mm"], 10.0)
-                    self.assertLess(row["contour"], 0.01)
+            for row in self.summary("other"):
+                self.assertEqual((row["strokes_completed"], row["time_s"]), (0, None))
+            if len(text) == 1:  # on a page of another text it is written elsewhere
+                self.assertGreater(self.summary("other")[0]["rms_error_mm"], 10.0)
+                self.assertLess(self.summary("other")[0]["contour"], 0.01)
+        nothing, person = self.summary("other")  # of the trace of the second character alone
+        self.assertIsNone(nothing["rms_error_mm"])
+        self.assertAlmostEqual(person["rms_error_mm"], self.summary("first")[1]["rms_error_mm"], places=6)
 
     def test_where_no_character_is_completed_more_repetitions_are_not_advised(self):
         for repeat, pairs in (("1", "1 pair"), ("2", "2 pairs")):

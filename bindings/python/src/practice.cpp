@@ -3,7 +3,9 @@
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/pictures/picture.hpp>
+#include <calligraphy/practice/dtw_distance.hpp>
 #include <calligraphy/practice/mean_interval.hpp>
+#include <calligraphy/practice/pen_kinematics.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 #include <calligraphy/practice/stroke_matching.hpp>
@@ -50,15 +52,18 @@ auto reporting(Result (*function)(Arguments...)) {
   };
 }
 
+PenStroke pen_stroke(const ArrayLike& samples, const char* name) {
+  const Doubles rows = doubles(samples, name, 3);
+  PenStroke result;
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
+    result.push_back({Point(rows.at(i, 0), rows.at(i, 1)), rows.at(i, 2)});
+  }
+  return result;
+}
+
 PenTrace trace_of(char32_t character, const std::vector<ArrayLike>& strokes, std::string set, double em) {
   PenTrace result{character, std::move(set), em, {}};
-  for (const ArrayLike& stroke : strokes) {
-    const Doubles rows = doubles(stroke, "strokes", 3);
-    PenStroke& down = result.strokes.emplace_back();
-    for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
-      down.push_back({Point(rows.at(i, 0), rows.at(i, 1)), rows.at(i, 2)});
-    }
-  }
+  for (const ArrayLike& stroke : strokes) result.strokes.push_back(pen_stroke(stroke, "strokes"));
   return result;
 }
 
@@ -149,6 +154,18 @@ void add_practice(py::module_& module) {
 
   module.def("match_strokes", &match_of, "character"_a, "paths"_a, "tolerances"_a = StrokeTolerances(),
              "+ Each path is an array (n, 2) [em].");
+
+  add_types<PenKinematics>(module);
+  module.def(
+      "pen_kinematics",
+      [](const ArrayLike& pen_down) { return released(&pen_kinematics)(pen_stroke(pen_down, "pen_down")); },
+      "pen_down"_a, "+ An array (n, 3) as in PenTrace.strokes: x, y, time.");
+  module.def(
+      "dtw_distance",
+      [](const ArrayLike& one, const ArrayLike& other) {
+        return dtw_distance(points(one, "one"), points(other, "other"));
+      },
+      "one"_a, "other"_a, "+ Arrays (n, 2).");
 
   module.def(
       "mean_interval",
