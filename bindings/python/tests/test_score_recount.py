@@ -1,0 +1,491 @@
+"""Scores of 200 sessions with known faults, each against a count of the recorded trace written again with NumPy.
+
+A session draws the strokes of a character along their middle lines, a little disturbed, with one fault or several. The
+count takes from the recording what was measured, and from the drawing only which stroke each pen-down is.
+
+Some faults cannot be told from geometry (docs/practice.md, "What cannot be recognised"). Which strokes a fault is drawn
+in is therefore decided by the templates alone:
+
+- A stroke with a fault has no other within DISTINCT of it, and strokes that are swapped have none such among
+  themselves and those between them. The distance is the mean one of 32 points at equal arc length, forwards or
+  backwards.
+- A stroke is only reversed where its ends are farther apart than OPEN.
+- Of a stroke enough is written that the part is within half of DISTINCT of the whole, and where others are still to
+  come, it is nearer to its own than to any of these by DISTINCT.
+- Strokes are only left out where two others remain to tell where the character lies.
+"""
+
+import collections
+import functools
+import math
+
+import numpy as np
+import pytest
+
+import calligraphy as cal
+
+SESSIONS = 200
+RATE = 1000.0
+DISTINCT = 0.15  # [em], what an unmatched stroke costs
+OPEN = 0.1  # [em]
+BOUNCE = 0.05  # the longest lift that does not end a pen-down [s]
+DEPTH, HEIGHT = -1e-4, 5e-3  # of the pen below and above the paper [m]
+
+FAULTS = (
+    "none",
+    "swapped",
+    "reversed",
+    "retried",  # reversed, and once more as it should be
+    "twice",
+    "abandoned",
+    "missing",
+    "nothing",
+    "begun late",
+    "recorded late",
+    "lost samples",
+    "lost run",  # more than 50 ms: two pen-downs
+    "bounce",
+)
+OF_THE_RECORDING = ("recorded late", "lost samples", "bounce")  # which go together with any of the others
+
+
+class Line:
+    """A polyline with its length along the way: straight elements as they are, each curve as 400 chords.
+
+    Chords of a curve of 40 mm are 0.1 mm long: where it bends with a radius of 10 mm, they are within 0.13 um of it.
+    """
+
+    def __init__(self, points):
+        self.points = np.asarray(points, float)
+        self.arc = np.concatenate([[0.0], np.hypot(*np.diff(self.points, axis=0).T).cumsum()])
+        self.length = self.arc[-1]
+
+    def at(self, arc):
+        return np.column_stack([np.interp(arc, self.arc, axis) for axis in self.points.T])
+
+    def even(self, count, begin=0.0, end=1.0):
+        return self.at(np.linspace(begin, end, count) * self.length)
+
+    def distances(self, points):
+        """Of each point from the nearest segment."""
+        if len(self.points) == 1:
+            return np.hypot(*(points - self.points).T)
+        start, along = self.points[:-1], np.diff(self.points, axis=0)
+        square = np.maximum((along**2).sum(1), 1e-30)
+        x, y = (points[:, None, i] - start[None, :, i] for i in range(2))
+        share = np.clip((x * along[:, 0] + y * along[:, 1]) / square, 0.0, 1.0)
+        x -= share * along[:, 0]
+        y -= share * along[:, 1]
+        return np.sqrt((x * x + y * y).min(axis=1))
+
+    def nearest_arc(self, point, begin, end):
+        """Where on the part from begin to end the line is nearest to a point."""
+        arc = np.linspace(max(begin, 0.0), min(end, self.length), 1001)
+        return arc[np.argmin(np.hypot(*(self.at(arc) - point).T))]
+
+
+def middle_line(stroke):
+    """The true stroke [em]: L is a straight line, C a cubic Bezier curve."""
+    control, points, at = np.asarray(stroke.control_points), [], 0
+    for element in stroke.elements:
+        if element == "L":
+            points += [control[at], control[at + 1]]
+            at += 1
+        else:
+            t = np.linspace(0.0, 1.0, 401)[:, None]
+            weights = ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3)
+            points += list(sum(w * p for w, p in zip(weights, control[at : at + 4])))
+            at += 3
+    assert at == len(control) - 1
+    return Line(points)
+
+
+@functools.cache
+def lines_of(code):
+    return [middle_line(stroke) for stroke in cal.built_in_characters()[code].strokes()]
+
+
+def apart(one, other):
+    """Mean distance of points at equal arc length, in the direction in which it is less."""
+    return min(np.hypot(*(one - way).T).mean() for way in (other, other[::-1]))
+
+
+@functools.cache
+def shape_distances(code):
+    shapes = [line.even(32) for line in lines_of(code)]
+    return np.array([[apart(one, other) for other in shapes] for one in shapes])
+
+
+def is_distinct(code, strokes):
+    """Whether each of these is apart from all others."""
+    distances = shape_distances(code)
+    return all(distances[i, j] >= DISTINCT for i in strokes for j in range(len(distances)) if i != j)
+
+
+def part_is_known(code, stroke, begin, end, to_come=()):
+    shape = lines_of(code)[stroke].even(32, begin, end)
+    own = apart(shape, lines_of(code)[stroke].even(32))
+    return own <= DISTINCT / 2 and all(apart(shape, lines_of(code)[i].even(32)) >= own + DISTINCT for i in to_come)
+
+
+# Drawing
+
+
+class Drawn:
+    """A pen-down as it was meant: of which stroke, from where to where, and whether it is the one that counts."""
+
+    def __init__(self, character, stroke, begin=0.0, end=1.0, backwards=False, extra=False, bent=0.0):
+        self.character, self.stroke, self.begin, self.end = character, stroke, begin, end
+        self.backwards, self.extra, self.bent = backwards, extra, bent
+        self.bounces = self.gap = False
+
+
+def meant(rng, fault, codes, faulty):
+    """The pen-downs of a session, or None where this character has no stroke for the fault."""
+    code, pens = codes[faulty], []
+    lines, count = lines_of(code), len(lines_of(code))
+    stroke = int(rng.integers(count))
+    order = list(range(count))
+    one = [Drawn(faulty, stroke)]
+    if fault == "nothing":
+        return []
+    if fault in ("none", "lost samples"):
+        pass
+    elif fault == "swapped":
+        if count < 2:
+            return None
+        first, second = sorted(int(i) for i in rng.choice(count, 2, replace=False))
+        among = shape_distances(code)[first : second + 1, first : second + 1]
+        if (among + np.eye(len(among)) < DISTINCT).any():
+            return None
+        order[first], order[second] = second, first
+    elif fault == "abandoned":
+        share = rng.uniform(0.2, 0.8)
+        if 1 < count and stroke < 2 or not part_is_known(code, stroke, 0.0, share, range(stroke + 1, count)):
+            return None
+        order, one = order[: stroke + 1], [Drawn(faulty, stroke, 0.0, share)]
+        codes = codes[: faulty + 1]
+    elif not is_distinct(code, [stroke]):
+        return None
+    elif fault in ("reversed", "retried"):
+        if np.hypot(*(lines[stroke].points[-1] - lines[stroke].points[0])) < OPEN:
+            return None
+        one = [Drawn(faulty, stroke, backwards=True, extra=fault == "retried")]
+        if fault == "retried":
+            one.append(Drawn(faulty, stroke))
+    elif fault == "twice":
+        one = [Drawn(faulty, stroke), Drawn(faulty, stroke, bent=0.05, extra=True)][:: rng.choice([-1, 1])]
+    elif fault == "missing":
+        if count < 3:
+            return None
+        one = []
+    elif fault == "begun late":
+        share = rng.uniform(0.1, 0.4)
+        if not part_is_known(code, stroke, share, 1.0):
+            return None
+        one = [Drawn(faulty, stroke, share)]
+    elif fault in ("lost run", "bounce"):
+        if fault == "lost run" and lines[stroke].length < 0.5:
+            return None
+        one[0].gap, one[0].bounces = fault == "lost run", fault == "bounce"
+    for character, text in enumerate(codes):
+        for i in order if character == faulty else range(len(lines_of(text))):
+            pens += one if character == faulty and i == stroke and fault != "swapped" else [Drawn(character, i)]
+    return pens
+
+
+class Session:
+    """A page, its recording, the stroke that each sample belongs to, and the pen-downs as they were meant."""
+
+    def __init__(self, seed):
+        self.rng = rng = np.random.default_rng([2006, seed])
+        self.faults = [FAULTS[seed % len(FAULTS)]]
+        if seed % 4 == 3 and self.faults[0] not in ("none", "nothing", *OF_THE_RECORDING):
+            self.faults.append(OF_THE_RECORDING[seed // 4 % 3])
+        characters = cal.built_in_characters()
+        self.pens = None
+        while self.pens is None or not self.can_be_recorded_late():
+            self.text = "".join(rng.choice([c.code for c in characters], 2 if seed % 5 == 4 else 1, replace=False))
+            faulty = 0 if "recorded late" in self.faults else int(rng.integers(len(self.text)))
+            own = "none" if self.faults[0] in OF_THE_RECORDING and self.faults[0] != "bounce" else self.faults[0]
+            self.pens = meant(rng, own, self.text, faulty)
+        self.page = cal.lay_out([characters[code] for code in self.text])[0]
+        self.lines = [
+            [Line(p.placement.origin + p.placement.em * line.points) for line in lines_of(p.character.code)]
+            for p in self.page.characters
+        ]
+        self.draw()
+
+    def can_be_recorded_late(self):
+        if "recorded late" not in self.faults or not self.pens:
+            return True
+        first = self.pens[0]
+        if first.backwards or first.extra or first.gap or first.end < 1 or first.begin > 0:
+            return False
+        self.cut = self.rng.uniform(0.1, 0.4)
+        text = self.text[0]
+        return is_distinct(text, [first.stroke]) and part_is_known(text, first.stroke, self.cut, 1.0)
+
+    def pen_down(self, pen):
+        """Its points, a tick each: a smooth motion along the stroke, shifted and bent by a little [m]."""
+        rng, line, em = self.rng, self.lines[pen.character][pen.stroke], 0.04
+        way = (pen.end - pen.begin) * line.length
+        speed = rng.uniform(0.06, 0.15) if not (pen.gap or pen.bounces) else 0.06  # [m/s]
+        ticks = max(int(way / speed * RATE), 8)
+        u = np.linspace(0.0, 1.0, ticks)
+        u += rng.uniform(-0.1, 0.1) * np.sin(2 * np.pi * u)  # faster here, slower there
+        share = pen.begin + (pen.end - pen.begin) * (u if not pen.backwards else 1.0 - u)
+        direction = rng.uniform(0.0, 2 * np.pi, 2)
+        shift, bend = rng.uniform(0.0, 0.014) * em, (rng.uniform(0.0, 0.006) + pen.bent) * em
+        points = line.at(share * line.length)
+        points += shift * np.array([np.cos(direction[0]), np.sin(direction[0])])
+        return points + bend * np.sin(np.pi * share)[:, None] * np.array([np.cos(direction[1]), np.sin(direction[1])])
+
+    def draw(self):
+        rng, place, rows, labels = self.rng, np.array([0.5 * self.page.width, 0.5 * self.page.height]), [], []
+
+        def add(points, heights, label):
+            rows.append(np.column_stack([points, np.broadcast_to(heights, len(points))]))
+            labels.append(np.full(len(points), label))
+
+        add(np.tile(place, (60, 1)), HEIGHT, -1)
+        for label, pen in enumerate(self.pens):
+            points = self.pen_down(pen)
+            air = max(int(np.hypot(*(points[0] - place)) / 0.4 * RATE), 60)
+            add(np.linspace(place, points[0], air), HEIGHT, -1)
+            add(np.tile(points[0], (10, 1)), np.linspace(HEIGHT, 1e-3, 10), -1)
+            heights = np.full(len(points), DEPTH)
+            middle = int(rng.uniform(0.35, 0.65) * len(points))
+            if pen.bounces:
+                lift = min(int(rng.integers(20, 50)), len(points) // 4)
+                up = np.minimum(1.0, np.minimum(np.arange(lift), np.arange(lift)[::-1]) / 5)
+                heights[middle - lift // 2 : middle - lift // 2 + lift] += up * (HEIGHT - DEPTH)
+            if pen.gap:
+                lost = int(rng.integers(60, 90))
+                points[middle - lost // 2 : middle - lost // 2 + lost] = np.nan
+            add(points, heights, label)
+            add(np.tile(points[-1], (10, 1)), np.linspace(DEPTH, HEIGHT, 10), label)  # on the paper for half of it
+            place = points[-1]
+        add(np.tile(place, (80, 1)), HEIGHT, -1)
+        positions, labels = np.concatenate(rows), np.concatenate(labels)
+        lost = np.zeros(len(labels), bool)
+        if "lost samples" in self.faults:
+            for length in (1, 1, 1, *rng.integers(2, 30, 2)):
+                begin = int(rng.integers(len(lost) - length))
+                # a run of lost samples at the end of a pen-down is as much of it as the count would have to guess
+                near = labels[max(begin - 40, 0) : begin + length + 40]
+                if len(set(near)) == 1 and not any(self.pens[i].bounces or self.pens[i].gap for i in set(near) if i >= 0):
+                    lost[begin : begin + length] = True
+        positions[lost] = np.nan
+        mapping = cal.upright_page(self.page.width, self.page.height)
+        device = np.array([mapping.to_device(p) for p in positions])
+        renderer = cal.HapticRenderer(self.page.characters, mapping, cal.device_profile("ideal"))
+        ticks = renderer.trace(device, np.arange(len(device)) / RATE)
+        samples = np.zeros(len(ticks), cal.sample_dtype)
+        for name in ("time", "device_point", "pen_tip", "state", "events", "status", "character", "stroke"):
+            samples[name] = ticks[name]
+        samples["force"] = ticks["page_force"]
+        if "lost samples" in self.faults:  # one that the device itself reports, wherever it is
+            samples["status"][np.flatnonzero(labels == labels.max())[5]] = int(cal.TickStatus.device_fault)
+        if "recorded late" in self.faults and self.pens:
+            first = np.flatnonzero(labels == 0)
+            line = self.lines[0][self.pens[0].stroke]
+            begin = first[int(self.cut * len(first))]
+            self.pens[0].begin = line.nearest_arc(positions[begin, :2], 0.0, 0.6 * line.length) / line.length
+            samples, labels = samples[begin:], labels[begin:]
+        self.recording = cal.Recording(RATE, samples, page=cal.page_id(self.page))
+        self.labels = labels
+
+    def __str__(self):
+        return f"{self.text}: {' and '.join(self.faults)}"
+
+
+@functools.cache
+def session(seed):
+    return Session(seed)
+
+
+# Counting
+
+
+def split(samples):
+    """Index arrays of the pen-downs: usable samples on the paper, no more than 50 ms after each other."""
+    usable = (samples["status"] == 0) & np.isfinite(samples["pen_tip"]).all(axis=1) & np.isfinite(samples["time"])
+    on_paper = np.flatnonzero(usable & (samples["state"] != int(cal.InteractionState.separation)))
+    breaks = np.flatnonzero(np.diff(samples["time"][on_paper]) > BOUNCE + 1e-9) + 1
+    return [part for part in np.split(on_paper, breaks) if len(part)]
+
+
+def along_the_way(errors, points):
+    """Integral of the squared errors over the length of a path, at least and at most, and this length.
+
+    Which end of a step tells its error is not defined: sums by the trapezium rule, by the left and by the right ends
+    all lie between those of the lesser and of the greater ends.
+    """
+    steps, squares = np.hypot(*np.diff(points, axis=0).T), errors**2
+    ends = squares[1:], squares[:-1]
+    return np.array([(np.minimum(*ends) * steps).sum(), (np.maximum(*ends) * steps).sum(), steps.sum()])
+
+
+def longest_ascent(numbers):
+    lengths = []
+    for i, number in enumerate(numbers):
+        lengths.append(1 + max((lengths[j] for j in range(i) if numbers[j] < number), default=0))
+    return max(lengths, default=0)
+
+
+def root(sums):
+    """Root mean square, at least and at most; NaN of nothing."""
+    low, high, length = sums
+    return (math.sqrt(low / length), math.sqrt(high / length)) if length > 0 else (math.nan, math.nan)
+
+
+def count(drawn, character):
+    """The row of a character."""
+    samples, lines = drawn.recording.samples, drawn.lines[character]
+    em = drawn.page.characters[character].placement.em
+    tips, times = samples["pen_tip"][:, :2], samples["time"]
+    downs = []
+    for part in split(samples):
+        labels = set(drawn.labels[part])
+        assert len(labels) == 1 and -1 not in labels, "a pen-down is one of those that were drawn"
+        pen = drawn.pens[labels.pop()]
+        if pen.character == character:
+            downs.append((part, pen))
+    inks = [Line(tips[part]) for part, _ in downs]
+    row = {"stroke_count": len(lines), "pen_downs": [(times[part[0]], times[part[-1]]) for part, _ in downs]}
+    row["drawn"] = [-1 if pen.extra else pen.stroke for _, pen in downs]
+
+    finished = np.flatnonzero(samples["events"] & int(cal.TickEvent.stroke_finished))
+    before = np.maximum(finished - 1, 0)
+    completed = {(samples["character"][i], samples["stroke"][i]) for i in before}
+    strokes, of_pens, of_all, largest, covered_length = [], np.zeros(3), np.zeros(3), [], 0.0
+    for i, line in enumerate(lines):
+        mine = [k for k, (_, pen) in enumerate(downs) if pen.stroke == i and not pen.extra]
+        stroke = {"completed": (character, i) in completed, "pen_down": mine[0] if mine else -1}
+        errors = [line.distances(inks[k].points) for k in mine]
+        sums = sum((along_the_way(error, inks[k].points) for error, k in zip(errors, mine)), np.zeros(3))
+        of_pens += sums
+        stroke["rms_error"] = root(sums)
+        stroke["max_error"] = max((error.max() for error in errors), default=math.nan)
+
+        grid = (np.arange(1000) + 0.5) / 1000 * line.length
+        covered = np.zeros(1000, bool)
+        for k in mine:
+            part, pen = downs[k]
+            if pen.backwards:
+                continue
+            ends = inks[k].points[[0, -1]]
+            reach = 0.06 * em
+            expected = (pen.begin * line.length, pen.end * line.length)
+            if pen.gap:  # in two pen-downs, the first of which ends, the second begins in the middle
+                reach = 0.5 * line.length
+                expected = (expected[0], line.length / 2) if k == mine[0] else (line.length / 2, expected[1])
+                if k == mine[0]:
+                    begin = line.nearest_arc(ends[0], expected[0] - 0.06 * em, expected[0] + 0.06 * em)
+                    end = line.nearest_arc(ends[1], 0.2 * line.length, 0.8 * line.length)
+                else:
+                    begin = line.nearest_arc(ends[0], 0.2 * line.length, 0.8 * line.length)
+                    end = line.nearest_arc(ends[1], expected[1] - 0.06 * em, expected[1] + 0.06 * em)
+            else:
+                begin, end = (line.nearest_arc(p, at - reach, at + reach) for p, at in zip(ends, expected))
+            covered |= (grid >= begin) & (grid <= end)
+        stroke["coverage"] = covered.mean()
+        covered_length += covered.mean() * line.length
+
+        left = line.at(grid[~covered])
+        near = [inks[k] for k in mine] or inks
+        length = (~covered).mean() * line.length
+        if len(left) and near:
+            square = (np.min([ink.distances(left) for ink in near], axis=0) ** 2).mean() * length
+            sums = sums + [square, square, length]
+        stroke["overall_error"] = root(sums)
+        strokes.append(stroke)
+        of_all += sums
+        largest += [stroke["max_error"]] if mine else []
+    row["strokes"] = strokes
+    row["rms_error"] = root(of_pens)
+    row["max_error"] = max(largest, default=math.nan)
+    row["overall_error"] = root(of_all)
+    row["coverage"] = covered_length / sum(line.length for line in lines)
+    written = [stroke for stroke in strokes if stroke["pen_down"] >= 0]
+    row["strokes_written"] = len(written)
+    row["strokes_completed"] = sum(stroke["completed"] for stroke in strokes)
+
+    firsts = list(dict.fromkeys(stroke for stroke in row["drawn"] if stroke >= 0))
+    row["order_mistakes"] = len(firsts) - longest_ascent(firsts)
+    row["direction_mistakes"] = sum(pen.backwards and not pen.extra for _, pen in downs)
+    row["extra"] = sum(pen.extra for _, pen in downs)
+    row["missing"] = len(lines) - len(written)
+    row["broken"] = len([stroke for stroke in row["drawn"] if stroke >= 0]) - len(written)
+
+    row["contour"] = sum(math.exp(-np.mean(stroke["overall_error"]) / (0.05 * em)) for stroke in written) / len(lines)
+    row["external_sequence"] = (len(written) - row["order_mistakes"]) / (len(lines) + row["extra"])
+    row["internal_sequence"] = (len(written) - row["direction_mistakes"]) / len(lines)
+    row["fidelity"] = (row["contour"] * row["external_sequence"] * row["internal_sequence"]) ** (1 / 3)
+
+    ended = samples["events"] & int(cal.TickEvent.character_finished) != 0
+    ended = np.flatnonzero(ended & (np.concatenate([samples["character"][:1], samples["character"][:-1]]) == character))
+    row["time"] = times[ended[0]] - row["pen_downs"][0][0] if len(ended) else math.nan
+    here = samples["character"] == character
+    row["lost_samples"] = int(((samples["status"] != 0) & here).sum())
+    row["peak_force"] = np.hypot.reduce(samples["force"][here], axis=1).max(initial=0.0)
+    return row
+
+
+def told(score):
+    """The same row as score_page() tells it."""
+    row = {name: getattr(score, name) for name in count(session(0), 0) if hasattr(score, name)}
+    row["order_mistakes"], row["direction_mistakes"] = score.order_mistakes(), score.direction_mistakes()
+    row["pen_downs"] = [(down.begin, down.end) for down in score.pen_downs]
+    row["drawn"] = [down.stroke for down in score.match.drawn]
+    for kind in ("extra", "missing", "broken"):
+        row[kind] = score.match.count(kind)
+    names = count(session(0), 0)["strokes"][0]
+    row["strokes"] = [{name: getattr(stroke, name) for name in names} for stroke in score.strokes]
+    return row
+
+
+def differences(got, expected, coverage_slack, path=""):
+    """Every column in which they differ, by more than its tolerance."""
+    for name, value in expected.items():
+        other, here = got[name], path + name
+        if name == "strokes":
+            for i, (one, two) in enumerate(zip(other, value, strict=True)):
+                yield from differences(one, two, coverage_slack, f"stroke {i + 1}, ")
+        elif name == "pen_downs":
+            if np.shape(other) != np.shape(value) or not np.allclose(other, value, rtol=0, atol=1.5 / RATE):
+                yield here, other, value
+        elif not isinstance(value, (float, tuple)):
+            if other != value:
+                yield here, other, value
+        else:
+            relative, absolute = {
+                "coverage": (0.0, coverage_slack),
+                "overall_error": (0.03, 2e-5),
+                "contour": (0.02, 1e-6),
+                "fidelity": (0.01, 1e-6),
+                "rms_error": (1e-3, 1e-6),
+                "max_error": (1e-3, 1e-6),
+                "time": (0.0, 1.5 / RATE),
+            }.get(name, (1e-9, 1e-12))
+            low, high = value if isinstance(value, tuple) else (value, value)
+            if math.isnan(low) and math.isnan(other):
+                continue
+            if not low - relative * low - absolute <= other <= high + relative * high + absolute:
+                yield here, other, value
+
+
+@pytest.mark.parametrize("seed", range(SESSIONS))
+def test_the_score_of_a_session_is_what_an_independent_count_finds(seed):
+    drawn = session(seed)
+    scores = cal.score_page(drawn.page, drawn.recording)
+    assert len(scores) == len(drawn.text)
+    for character, score in enumerate(scores):
+        found = list(differences(told(score), count(drawn, character), 0.03))
+        assert not found, f"{seed}, {drawn}, character {character + 1}: {found}"
+
+
+def test_every_fault_is_drawn_often():
+    drawn = collections.Counter(fault for seed in range(SESSIONS) for fault in session(seed).faults)
+    assert set(drawn) == set(FAULTS) and min(drawn.values()) >= SESSIONS // len(FAULTS)
