@@ -72,6 +72,7 @@ class Judge {
     const Reading free = read(&Judge::match_freely);
     if (is_believed(free, best_)) best_ = free;
     place(best_.fit);
+    prefer_corrections();
     tell_drawn();
     tell_order();
     tell_rest();
@@ -384,6 +385,37 @@ class Judge {
     return path + 1 < matches.size() && matches[path + 1].continues;
   }
 
+  /// A stroke written backwards and at once again forwards, or the other way round, was written forwards; the attempt
+  /// backwards is extra.
+  void prefer_corrections() {
+    std::vector<Match>& matches = best_.matches;
+    for (std::size_t path = 0; path < matches.size(); ++path) {
+      const Match& wrong = matches[path];
+      if (wrong.count != 1 || !wrong.backwards || wrong.continues || goes_on(matches, path)) continue;
+      const auto is_correction = [&](std::size_t other) {
+        const Match& match = singles_[other][wrong.first];
+        return !is_tap(other) && !match.backwards && match.cost < left_over;
+      };
+      const auto correction = attempt_beside(path, is_correction);
+      if (!correction) continue;
+      matches[*correction] = singles_[*correction][wrong.first];
+      matches[path] = {};
+    }
+  }
+
+  /// Of the pen-downs that wrote nothing and follow each other up to this one, or from it on, one that is wanted.
+  template <typename Wanted>
+  std::optional<std::size_t> attempt_beside(std::size_t path, Wanted wanted) const {
+    const std::vector<Match>& matches = best_.matches;
+    for (std::size_t next = path + 1; next < matches.size() && matches[next].count == 0; ++next) {
+      if (wanted(next)) return next;
+    }
+    for (std::size_t before = path; before-- > 0 && matches[before].count == 0;) {
+      if (wanted(before)) return before;
+    }
+    return std::nullopt;
+  }
+
   std::string stroke_label(std::size_t stroke) const { return stroke_name(stroke, *strokes_[stroke].type); }
 
   void add(StrokeRemarkKind kind, std::size_t path, std::size_t stroke, std::string reason) {
@@ -466,6 +498,22 @@ class Judge {
     return stroke_label(stroke) + " was written only after " + stroke_label(last);
   }
 
+  /// Another attempt at a stroke, or nothing that is known.
+  std::string extra_reason(std::size_t path) const {
+    const std::vector<Match>& of_path = singles_[path];
+    const auto nearest = std::min_element(of_path.begin(), of_path.end(),
+                                          [](const Match& one, const Match& other) { return one.cost < other.cost; });
+    if (nearest == of_path.end() || nearest->cost > left_over) return " resembles none of the strokes";
+    std::string text = " is another attempt at " + stroke_label(nearest->first);
+    if (nearest->backwards) text += ", backwards";
+    for (std::size_t other = 0; other < best_.matches.size(); ++other) {
+      const Match& match = best_.matches[other];
+      const bool wrote = match.first <= nearest->first && nearest->first < match.first + match.count;
+      if (wrote) return text + ", which pen-down " + std::to_string(other + 1) + " wrote";
+    }
+    return text;
+  }
+
   void tell_rest() {
     for (std::size_t path = 0; path < paths_.size(); ++path) {
       const Match& match = best_.matches[path];
@@ -473,8 +521,7 @@ class Judge {
       const std::string pen_down = "pen-down " + std::to_string(path + 1);
       if (match.count == 0) {
         if (drawn.tap) continue;  // the pen bounced
-        result_.remarks.push_back({StrokeRemarkKind::extra, static_cast<int>(path), -1,
-                                   pen_down + " matches none of the strokes not yet written"});
+        result_.remarks.push_back({StrokeRemarkKind::extra, static_cast<int>(path), -1, pen_down + extra_reason(path)});
         continue;
       }
       if (match.continues) {

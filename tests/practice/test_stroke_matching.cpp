@@ -234,12 +234,14 @@ TEST_CASE("an additional pen-down is extra, and a bounce is ignored", "[practice
     CHECK(match.remarks[0].kind == StrokeRemarkKind::extra);
     CHECK(match.remarks[0].path == 2);
     CHECK(match.remarks[0].stroke == -1);
+    CHECK(match.remarks[0].reason == "pen-down 3 resembles none of the strokes");
   }
   SECTION("a stroke written again") {
     drawn.push_back(drawn[0]);
     const MatchResult match = match_strokes(ten, drawn);
-    CHECK(match.count(StrokeRemarkKind::extra) == 1);
-    CHECK(match.count(StrokeRemarkKind::order) + match.count(StrokeRemarkKind::missing) == 0);
+    REQUIRE(match.remarks.size() == 1);
+    CHECK(match.remarks[0].kind == StrokeRemarkKind::extra);
+    CHECK(match.remarks[0].reason == "pen-down 3 is another attempt at stroke 1 (héng), which pen-down 1 wrote");
   }
   SECTION("a bounce beside the page") {
     drawn.insert(drawn.begin() + 1, PenPath{{1.3, 1.2}, {1.305, 1.2}});
@@ -248,6 +250,32 @@ TEST_CASE("an additional pen-down is extra, and a bounce is ignored", "[practice
     CHECK(match.drawn[1].tap);
     CHECK(match.drawn[1].stroke == -1);
     CHECK(match.drawn[1].direction == WritingDirection::unknown);
+  }
+}
+
+TEST_CASE("a stroke written backwards and at once corrected was written forwards, and the wrong attempt is extra",
+          "[practice]") {
+  Sequence random(41);
+  for (const Character& character : built_in_characters().characters) {
+    const std::vector<PenPath> paths = copy_of(character);
+    for (std::size_t stroke = 0; stroke < paths.size(); ++stroke) {
+      if ((paths[stroke].front() - paths[stroke].back()).norm() < 0.5 * path_length(paths[stroke])) continue;
+      const bool corrected = random.next() < 0.7;  // or written well first, then once more backwards
+      std::vector<PenPath> attempts = {paths[stroke], paths[stroke]};
+      reverse(attempts[corrected ? 0 : 1]);
+      const Point shift(0.06 * random.next() - 0.03, 0.06 * random.next() - 0.03);
+      for (Point& point : attempts[corrected ? 1 : 0]) point += shift;  // the better way need not be the better place
+      std::vector<PenPath> drawn = paths;
+      drawn[stroke] = attempts[0];
+      drawn.insert(drawn.begin() + static_cast<std::ptrdiff_t>(stroke) + 1, attempts[1]);
+      const MatchResult match = match_strokes(character, drawn);
+      CAPTURE(encode_utf8(character.code), stroke, told(match));
+      REQUIRE(match.remarks.size() == 1);
+      CHECK(match.remarks[0].kind == StrokeRemarkKind::extra);
+      CHECK(match.remarks[0].path == static_cast<int>(stroke) + (corrected ? 0 : 1));
+      CHECK(match.remarks[0].reason.find("backwards, which pen-down") != std::string::npos);
+      CHECK(match.drawn[stroke + (corrected ? 1 : 0)].stroke == static_cast<int>(stroke));
+    }
   }
 }
 
