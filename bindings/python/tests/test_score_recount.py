@@ -6,12 +6,12 @@ The count takes what was measured from the recording, and from the drawing only 
 Some faults cannot be told from geometry (docs/practice.md, "What cannot be recognised"). The templates alone decide
 which strokes a fault is drawn in:
 
-- A stroke with a fault has no other within DISTINCT of it, nor have strokes that are swapped, among themselves and those
-  between them. This is the mean distance of 32 points at equal arc length, forwards or backwards.
+- A stroke with a fault has no other within DISTINCT of it, nor have strokes that are swapped among themselves and
+  those between them. This is the mean distance of 32 points at equal arc length, forwards or backwards.
 - A stroke is reversed, or written twice, only where its ends are farther apart than OPEN.
 - A part of a stroke is within PART of the whole, is not turned against it by more than TURNED, and is nearer to it than
-  to any stroke still to come by half of DISTINCT. From the third stroke on the character may be broken off: those before
-  tell where it lies.
+  to any stroke still to come by half of DISTINCT. A character is broken off in its third stroke or later, so that those
+  before tell where it lies.
 - A stroke is left out only where two others remain, for the same reason.
 - What is lost in the middle of a stroke is at most a fifth of it. Where it is more than a quarter, the parts are not
   taken for one stroke.
@@ -55,8 +55,8 @@ FAULTS = (
 OF_THE_RECORDING = ("recorded late", "lost samples", "bounce")  # which go together with any of the others
 
 OF_WHAT_IS_LEFT_OUT = ("overall_error", "contour", "fidelity")
-# What was left out is summed over hundredths of the stroke, each as far off as its farther end: of 10 % left out that is
-# 7 % too much, of 20 % 4 %: the sum of k^2 in place of the integral of x^2.
+# What was left out is summed over hundredths of the stroke, each as far off as its farther end, the sum of k^2 in place
+# of the integral of x^2: of 10 % left out that is 7 % too much, of 20 % 4 %.
 COARSE = (15, 100, 112, 126)
 ENDS_OF_CELLS = pytest.mark.xfail(strict=True, reason="overall_error counts the far end of each hundredth of a stroke")
 
