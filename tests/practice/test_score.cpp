@@ -149,6 +149,18 @@ TEST_CASE("half a stroke is half covered, and the other half counts as far as it
   CHECK(result.contour < 0.1);
 }
 
+TEST_CASE("half a stroke written backwards leaves out the other half too", "[practice]") {
+  const PracticePage page = page_of("一");
+  const auto [start, end] = ends_of(page, 0, 0);
+  Pen forwards(page), backwards(page);
+  forwards.draw(straight(start, 0.5 * (start + end)));
+  backwards.draw(straight(0.5 * (start + end), start));
+  const CharacterScore one = forwards.scores().front(), other = backwards.scores().front();
+  CHECK(other.direction_mistakes() == 1);
+  CHECK(other.coverage == 0.0);
+  CHECK(other.overall_error == Approx(one.overall_error).epsilon(1e-3));
+}
+
 TEST_CASE("a stroke that was not written is as far off as it is from the ink of the others", "[practice]") {
   const PracticePage page = page_of("二");
   const auto [start, end] = ends_of(page, 0, 0);
