@@ -7,7 +7,7 @@
 
 #include <calligraphy/base/text.hpp>
 
-#include "remark_json.hpp"
+#include "score_json.hpp"
 
 namespace calligraphy::tools {
 namespace {
@@ -50,6 +50,23 @@ std::string others(const MatchResult& match) {
   return text;
 }
 
+/// How the people moved their pens, one line per trace.
+std::string motion_table(const ReplayReport& report) {
+  constexpr const char* columns = "{:<8}{:>8}{:>8}{:>9}{:>8}{:>8}{:>8}{:>8}{:>9}\n";
+  const auto line = fmt::runtime(columns);
+  std::string text = fmt::format(line, "", "paper", "air", "pen-ups", "path", "mean v", "peak v", "peaks", "smooth") +
+                     fmt::format(line, "", "[s]", "[s]", "", "[em]", "[em/s]", "[em/s]", "of v", "SPARC");
+  for (const Replayed& trace : report.traces) {
+    const WritingMotion& motion = trace.motion;
+    text +=
+        fmt::format(fmt::runtime("{:>3} {}  {:>8}{:>8}{:>9}{:>8}{:>8}{:>8}{:>8}{:>9}\n"), trace.position,
+                    encode_utf8(trace.guided.character), fixed(motion.time_on_paper, 2), fixed(motion.time_in_air, 2),
+                    motion.pen_ups, fixed(motion.path_length, 2), fixed(motion.mean_speed, 2),
+                    fixed(motion.peak_speed, 2), motion.velocity_peaks, fixed(motion.smoothness, 2));
+  }
+  return text;
+}
+
 Json json_of(const Replayed& trace) {
   Json drawn = Json::array();
   for (const DrawnStroke& each : trace.match.drawn) {
@@ -75,6 +92,7 @@ Json json_of(const Replayed& trace) {
           {"missing_strokes", trace.match.count(StrokeRemarkKind::missing)},
           {"drawn", drawn},
           {"remarks", remarks},
+          {"motion", motion_json(trace.motion, "em")},
           {"strokes_completed", trace.guided.strokes_completed},
           {"faults", trace.faults},
           {"peak_force_N", trace.guided.peak_force},
@@ -104,6 +122,7 @@ std::string table(const ReplayReport& report) {
   }
   text += fmt::format("limits of {}: force {:.2f} N, force step {:.3f} N/tick\n", report.device, report.peak_force,
                       report.max_force_step);
+  text += "\n" + motion_table(report);
   if (!remarks.empty()) text += "\n" + remarks;
   const auto right = [&report](std::string (*judged)(const MatchResult&)) {
     return std::count_if(report.traces.begin(), report.traces.end(),

@@ -14,6 +14,7 @@ struct Replayed {
   int position = 0;  ///< in the file, from 1
   std::string set;
   MatchResult match;      ///< of what the person wrote
+  WritingMotion motion;   ///< of the person's pen [em]
   CharacterScore guided;  ///< of the simulated pen under guidance
   int faults = 0;         ///< ticks whose sample the renderer rejected
 };

@@ -14,7 +14,7 @@
 #include <calligraphy/practice/mean_interval.hpp>
 
 #include "counted.hpp"
-#include "remark_json.hpp"
+#include "score_json.hpp"
 
 namespace calligraphy::tools {
 namespace {
@@ -35,11 +35,6 @@ double mean(const std::vector<Result>& results, std::size_t begin, std::size_t e
     ++count;
   }
   return sum / count;
-}
-
-/// "-" for what was not measured.
-std::string number(double value, int decimals) {
-  return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
 }
 
 /// Fewer independent pairs of runs vary too much to show an effect of force.
@@ -117,16 +112,16 @@ std::string writing_head() {
 std::string writing_line(const std::vector<Result>& results, std::size_t begin, std::size_t end) {
   const int decimals = end - begin > 1 ? 2 : 0;
   const auto error = [&](double CharacterScore::*which) {
-    return number(mean(results, begin, end, [which](const Result& r) { return r.score.*which * millimetres; }), 3);
+    return fixed(mean(results, begin, end, [which](const Result& r) { return r.score.*which * millimetres; }), 3);
   };
   const auto remarks = [&](StrokeRemarkKind kind) {
-    return number(mean(results, begin, end, [kind](const Result& r) { return r.score.match.count(kind); }), decimals);
+    return fixed(mean(results, begin, end, [kind](const Result& r) { return r.score.match.count(kind); }), decimals);
   };
   const auto strokes = [&](int CharacterScore::*which) {
-    return number(mean(results, begin, end, [which](const Result& r) { return r.score.*which; }), decimals);
+    return fixed(mean(results, begin, end, [which](const Result& r) { return r.score.*which; }), decimals);
   };
   const auto of = [&](const Quantity& quantity, int places) {
-    return number(mean(results, begin, end, quantity), places);
+    return fixed(mean(results, begin, end, quantity), places);
   };
   const CharacterScore& first = results[begin].score;
   return fmt::format(fmt::runtime(writing_columns), encode_utf8(first.character), to_string(results[begin].mode),
@@ -139,23 +134,37 @@ std::string writing_line(const std::vector<Result>& results, std::size_t begin, 
                      strokes(&CharacterScore::strokes_completed));
 }
 
-constexpr const char* force_columns = "{:<10}{:<8}{:>8}{:>10}{:>10}{:>12}\n";
+constexpr const char* motion_columns =
+    "{:<10}{:<8}{:>8}{:>8}{:>6}{:>8}{:>8}{:>8}{:>7}{:>8}{:>7}{:>9}{:>8}{:>10}{:>7}{:>7}\n";
 
-std::string force_head() {
-  const auto line = fmt::runtime(force_columns);
-  return fmt::format(line, "", "", "peak F", "max step", "tick p50", "tick p99.9") +
-         fmt::format(line, "character", "mode", "[N]", "[N/tick]", "[ns]", "[ns]");
+std::string motion_head() {
+  const auto line = fmt::runtime(motion_columns);
+  return fmt::format(line, "", "", "paper", "air", "pen-", "path", "mean v", "peak v", "peaks", "smooth", "DTW",
+                     "pressure", "peak F", "max step", "p50", "p99.9") +
+         fmt::format(line, "character", "mode", "[s]", "[s]", "ups", "[mm]", "[mm/s]", "[mm/s]", "of v", "SPARC",
+                     "[mm]", "[N]", "[N]", "[N/tick]", "[ns]", "[ns]");
 }
 
-std::string force_line(const std::vector<Result>& results, std::size_t begin, std::size_t end) {
+std::string motion_line(const std::vector<Result>& results, std::size_t begin, std::size_t end) {
   const auto of = [&](const Quantity& quantity, int decimals) {
-    return number(mean(results, begin, end, quantity), decimals);
+    return fixed(mean(results, begin, end, quantity), decimals);
   };
-  return fmt::format(fmt::runtime(force_columns), encode_utf8(results[begin].score.character),
-                     to_string(results[begin].mode), of([](const Result& r) { return r.score.peak_force; }, 2),
-                     of([](const Result& r) { return r.score.max_force_step; }, 3),
-                     of([](const Result& r) { return r.tick_p50; }, 0),
-                     of([](const Result& r) { return r.tick_p999; }, 0));
+  const auto motion = [&](auto WritingMotion::*which, double unit, int decimals) {
+    return of([which, unit](const Result& r) { return r.score.motion.*which * unit; }, decimals);
+  };
+  const auto score = [&](double CharacterScore::*which, double unit, int decimals) {
+    return of([which, unit](const Result& r) { return r.score.*which * unit; }, decimals);
+  };
+  const int decimals = end - begin > 1 ? 1 : 0;
+  return fmt::format(
+      fmt::runtime(motion_columns), encode_utf8(results[begin].score.character), to_string(results[begin].mode),
+      motion(&WritingMotion::time_on_paper, 1.0, 2), motion(&WritingMotion::time_in_air, 1.0, 2),
+      motion(&WritingMotion::pen_ups, 1.0, decimals), motion(&WritingMotion::path_length, millimetres, 1),
+      motion(&WritingMotion::mean_speed, millimetres, 1), motion(&WritingMotion::peak_speed, millimetres, 1),
+      motion(&WritingMotion::velocity_peaks, 1.0, decimals), motion(&WritingMotion::smoothness, 1.0, 2),
+      score(&CharacterScore::dtw_distance, millimetres, 3), score(&CharacterScore::mean_pressure, 1.0, 2),
+      score(&CharacterScore::peak_force, 1.0, 2), score(&CharacterScore::max_force_step, 1.0, 3),
+      of([](const Result& r) { return r.tick_p50; }, 0), of([](const Result& r) { return r.tick_p999; }, 0));
 }
 
 /// A line for each mode: over how many of how many strokes its errors are.
@@ -168,9 +177,9 @@ std::string means(const std::vector<Result>& results) {
     }
     if (scores.empty()) continue;
     const MeanScore all = mean_score(scores);
-    text += fmt::format("{:<7} RMS error {} mm over {} of {} strokes; {} mm with what was left out\n",
-                        to_string(mode), number(all.rms_error * millimetres, 3), all.strokes_written, all.stroke_count,
-                        number(all.overall_error * millimetres, 3));
+    text += fmt::format("{:<7} RMS error {} mm over {} of {} strokes; {} mm with what was left out\n", to_string(mode),
+                        fixed(all.rms_error * millimetres, 3), all.strokes_written, all.stroke_count,
+                        fixed(all.overall_error * millimetres, 3));
   }
   return text;
 }
@@ -190,10 +199,10 @@ std::string table(const Summary& summary) {
   std::string text = repetitions(summary);
   for (const bool second : {false, true}) {
     if (second) text += "\n";
-    text += second ? force_head() : writing_head();
+    text += second ? motion_head() : writing_head();
     for (std::size_t begin = 0, end = 0; begin < results.size(); begin = end) {
       end = end_of_repetitions(results, begin);
-      text += second ? force_line(results, begin, end) : writing_line(results, begin, end);
+      text += second ? motion_line(results, begin, end) : writing_line(results, begin, end);
     }
   }
   return text + "\n" + means(results);
@@ -207,7 +216,7 @@ std::string json(const Summary& summary) {
     for (const StrokeRemark& remark : score.match.remarks) {
       Json each = remark_json(remark);
       const bool has_time = remark.path >= 0;
-      each["time_s"] = has_time ? Json(score.pen_downs[static_cast<std::size_t>(remark.path)].begin) : Json();
+      each["time_s"] = has_time ? Json(score.pen_downs[static_cast<std::size_t>(remark.path)].motion.begin) : Json();
       remarks.push_back(each);
     }
     list.push_back({{"character", encode_utf8(score.character)},
@@ -228,6 +237,9 @@ std::string json(const Summary& summary) {
                     {"strokes_written", score.strokes_written},
                     {"strokes_completed", score.strokes_completed},
                     {"lost_samples", score.lost_samples},
+                    {"motion", motion_json(score.motion, "m")},
+                    {"dtw_distance_mm", score.dtw_distance * millimetres},
+                    {"mean_pressure_N", score.mean_pressure},
                     {"peak_force_N", score.peak_force},
                     {"max_force_step_N", score.max_force_step},
                     {"tick_ns_p50", result.tick_p50},

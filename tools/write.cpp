@@ -265,7 +265,8 @@ class WriteRun {
       const int index = static_cast<int>(i);
       const Recording own = part(recording, index);
       Result result = measure(scores[i], own);
-      result.score.peak_force *= options_.page.scale;  // as the hand feels it
+      result.score.mean_pressure *= options_.page.scale;  // as the hand feels it
+      result.score.peak_force *= options_.page.scale;
       result.score.max_force_step *= options_.page.scale;
       result.position = sheet.first_position + index;
       result.mode = session_.mode;

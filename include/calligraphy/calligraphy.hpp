@@ -50,6 +50,7 @@
 #include <calligraphy/practice/session.hpp>
 #include <calligraphy/practice/stroke_matching.hpp>
 #include <calligraphy/practice/writer.hpp>
+#include <calligraphy/practice/writing_motion.hpp>
 #include <calligraphy/render/assist_policy.hpp>
 #include <calligraphy/render/force_terms.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>

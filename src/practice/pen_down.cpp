@@ -1,5 +1,7 @@
 #include "pen_down.hpp"
 
+#include <algorithm>
+
 namespace calligraphy {
 namespace {
 
@@ -15,7 +17,8 @@ std::vector<PenDown> pen_downs(const Recording& recording) {
     if (on_paper) {
       const bool goes_on =
           !result.empty() && (was_on_paper || sample.time <= result.back().samples.back().time + max_bounce);
-      if (!goes_on) result.push_back({sample.character, {}});
+      if (!goes_on) result.push_back({sample.character, {}, 0.0});
+      result.back().pressed += std::max(0.0, sample.force.z());
       result.back().samples.push_back({sample.pen_tip.head<2>(), sample.time});
     }
     was_on_paper = on_paper;

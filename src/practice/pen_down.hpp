@@ -16,8 +16,9 @@ inline bool is_usable(const RecordedSample& sample) noexcept {
 
 /// One pen-down on the page.
 struct PenDown {
-  int character = 0;  ///< the one that was active when it began
-  PenStroke samples;  ///< usable ones on the paper [m, s]
+  int character = 0;     ///< the one that was active when it began
+  PenStroke samples;     ///< usable ones on the paper [m, s]
+  double pressed = 0.0;  ///< sum of the force out of the paper over the samples [N]
 };
 
 /// A lift of at most 50 ms is a bounce and ends no pen-down, nor does it end where samples are lost for no longer.

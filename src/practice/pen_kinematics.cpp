@@ -159,6 +159,7 @@ PenKinematics pen_kinematics(std::span<const TimedPoint> pen_down) {
   if (pen_down.empty()) return result;
   EvenPath path = resampled(pen_down);
   low_pass(path);
+  result.begin = pen_down.front().time;
   result.duration = pen_down.back().time - pen_down.front().time;
   result.path_length = path_length(path.points);
   if (result.duration < min_measured) return result;

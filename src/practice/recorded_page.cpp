@@ -9,6 +9,7 @@
 #include <calligraphy/base/error.hpp>
 
 #include "base/require.hpp"
+#include "pen_down.hpp"
 
 namespace calligraphy {
 namespace {
@@ -61,9 +62,17 @@ void require_same_page(const PracticePage& page, const Recording& recording) {
     refuse("its page_id() is " + std::to_string(recording.page) + ", that of the page " + std::to_string(id));
   }
   std::vector<double> distances;
+  double time = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < recording.samples.size(); ++i) {
     const RecordedSample& sample = recording.samples[i];
     require_indices(page, sample, i);
+    if (is_usable(sample)) {
+      if (sample.time < time) {
+        throw ValueError("the recording's sample " + std::to_string(i) + ": time " + number_text(sample.time) +
+                         " s is before that of a sample before it, " + number_text(time) + " s");
+      }
+      time = sample.time;
+    }
     const bool is_finish = has_event(sample.events, TickEvent::stroke_finished);
     if (is_finish && sample.pen_tip.allFinite()) distances.push_back(distance_to_finished(page, sample));
   }

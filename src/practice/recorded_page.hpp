@@ -17,7 +17,7 @@ struct StrokeIndex {
 StrokeIndex finished_stroke(const PracticePage& page, const RecordedSample& sample);
 
 /// @throws ValueError if the recording is known to be of another page, or was on characters or strokes that this one
-/// lacks, or finished strokes that lie elsewhere on this one
+/// lacks, or finished strokes that lie elsewhere on this one; and if its time runs backwards
 void require_same_page(const PracticePage& page, const Recording& recording);
 
 }  // namespace calligraphy

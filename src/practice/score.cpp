@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include <calligraphy/practice/dtw_distance.hpp>
 #include <calligraphy/practice/pen_path.hpp>
 #include <calligraphy/render/detail/prepared_page.hpp>
 
@@ -109,9 +110,19 @@ double covered(std::vector<Interval> parts) {
 struct Written {
   std::vector<std::size_t> paths;  ///< the pen-downs
   std::vector<Interval> parts;     ///< of the stroke, that they follow
+  std::vector<Point> points;       ///< of the pen, that lie along it [m]
   bool backwards = false;
   PathError error;  ///< of the pen
 };
+
+double mean_pressure(std::span<const PenDown* const> downs) {
+  double sum = 0.0, count = 0.0;
+  for (const PenDown* down : downs) {
+    sum += down->pressed;
+    count += static_cast<double>(down->samples.size());
+  }
+  return sum > 0.0 ? sum / count : not_measured;
+}
 
 class CharacterScorer {
  public:
@@ -127,12 +138,16 @@ class CharacterScorer {
       for (const TimedPoint& sample : down->samples) {
         path.push_back((sample.point - placement_.origin) / placement_.em);
       }
-      result_.pen_downs.push_back({down->samples.front().time, down->samples.back().time});
+      result_.pen_downs.push_back({pen_kinematics(down->samples), mean_pressure({&down, 1})});
     }
     result_.match = match_strokes(placed.character, paths, tolerances);
   }
 
   CharacterScore run() {
+    std::vector<PenKinematics> motions;
+    for (const PenDownScore& down : result_.pen_downs) motions.push_back(down.motion);
+    result_.motion = writing_motion(motions);
+    result_.mean_pressure = mean_pressure(downs_);
     written_.resize(templates_.size());
     for (std::size_t path = 0; path < downs_.size(); ++path) read(path);
     combine();
@@ -150,7 +165,7 @@ class CharacterScorer {
     const Alignment whole = align(points, points_along(line.points, path_length(line.points), line.points.size()));
     for (const LinePart& part : line.parts) {
       Written& written = written_[part.stroke];
-      if (!add_error(points, whole, part, written.error)) continue;
+      if (!add_points(points, whole, part, written)) continue;
       written.paths.push_back(path);
       written.backwards = backwards;
       const double share = part.to - part.from;
@@ -181,16 +196,16 @@ class CharacterScorer {
     return line;
   }
 
-  /// Of the points that lie along a part of the line; whether there are any.
-  bool add_error(const std::vector<Point>& points, const Alignment& whole, const LinePart& part, PathError& error) {
-    bool any = false;
+  /// Those that lie along a part of the line; whether there are any.
+  bool add_points(const std::vector<Point>& points, const Alignment& whole, const LinePart& part, Written& written) {
+    const std::size_t before = written.points.size();
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (whole.places[i] < part.from || whole.places[i] > part.to) continue;
       const double step = i > 0 ? (points[i] - points[i - 1]).norm() : 0.0;
-      error.add(templates_[part.stroke].distance_from(points[i]), step);
-      any = true;
+      written.error.add(templates_[part.stroke].distance_from(points[i]), step);
+      written.points.push_back(points[i]);
     }
-    return any;
+    return written.points.size() > before;
   }
 
   /// Returns its error with what was left out.
@@ -202,6 +217,7 @@ class CharacterScorer {
       score.coverage = written.backwards ? 0.0 : covered(written.parts);
       score.rms_error = written.error.rms();
       score.max_error = written.error.largest;
+      score.dtw_distance = dtw_distance(written.points, templates_[stroke].line);
     }
     PathError overall = written.error;
     add_rest(stroke, overall);
@@ -235,7 +251,7 @@ class CharacterScorer {
 
   void combine() {
     PathError written, overall;
-    double length = 0.0, contour = 0.0, covered_length = 0.0;
+    double length = 0.0, contour = 0.0, covered_length = 0.0, dtw = 0.0;
     for (std::size_t i = 0; i < templates_.size(); ++i) {
       overall.add(measure(i));
       const StrokeScore& score = result_.strokes[i];
@@ -244,6 +260,7 @@ class CharacterScorer {
       if (score.pen_down < 0) continue;
       ++result_.strokes_written;
       written.add(written_[i].error);
+      dtw += score.dtw_distance;
       contour += std::exp(-score.overall_error / (contour_tolerance * placement_.em));
     }
     result_.coverage = length > 0.0 ? covered_length / length : 0.0;
@@ -251,6 +268,7 @@ class CharacterScorer {
     if (result_.strokes_written == 0) return;
     result_.rms_error = written.rms();
     result_.max_error = written.largest;
+    result_.dtw_distance = dtw / result_.strokes_written;
     const double strokes = result_.stroke_count, right = result_.strokes_written;
     result_.contour = contour / strokes;
     result_.external_sequence =
@@ -295,7 +313,7 @@ void add_session(const Recording& recording, const PracticePage& page, std::vect
       CharacterScore& score = scores[finished.character];
       score.strokes[finished.stroke].completed = true;
       const bool is_last = has_event(sample.events, TickEvent::character_finished);
-      if (is_last && !score.pen_downs.empty()) score.time = sample.time - score.pen_downs.front().begin;
+      if (is_last && !score.pen_downs.empty()) score.time = sample.time - score.pen_downs.front().motion.begin;
     }
     if (active < scores.size()) {
       CharacterScore& score = scores[active];

@@ -109,22 +109,23 @@ class Judge {
 
   void place(const BoxMap& fit) {
     placed_.clear();
+    placed_lengths_.clear();
     drawn_.clear();
     for (const PenPath& path : paths_) {
       PenPath& moved = placed_.emplace_back();
       for (const Point& point : path) moved.push_back(fit(point));
-      drawn_.push_back(outline(moved));
+      placed_lengths_.push_back(path_length(moved));
+      drawn_.push_back(outline(moved, placed_lengths_.back()));
     }
     singles_.assign(paths_.size(), {});
     for (std::size_t path = 0; path < paths_.size(); ++path) {
-      const double length = path_length(placed_[path]);
       for (std::size_t stroke = 0; stroke < strokes_.size(); ++stroke) {
-        singles_[path].push_back(compare(drawn_[path], length, stroke, 1));
+        singles_[path].push_back(compare(drawn_[path], placed_lengths_[path], stroke, 1));
       }
     }
   }
 
-  bool is_tap(std::size_t path) const { return path_length(placed_[path]) < tap_length; }
+  bool is_tap(std::size_t path) const { return placed_lengths_[path] < tap_length; }
 
   /// What the pen-downs that are chosen cost, and the strokes that none of them and no other wrote.
   template <typename Chosen>
@@ -194,7 +195,7 @@ class Judge {
 
   /// The pen-down as strokes written without lifting the pen, if it resembles all of them, and none of them by itself.
   std::optional<Match> joined(std::size_t path, std::size_t first, std::size_t count) const {
-    const double length = path_length(placed_[path]);
+    const double length = placed_lengths_[path];
     if (length < joined_length * written_length(first, count)) return std::nullopt;
     double alone = impossible;
     for (std::size_t stroke = first; stroke < first + count; ++stroke) {
@@ -563,6 +564,7 @@ class Judge {
   std::vector<Outline> outlines_;
 
   std::vector<PenPath> placed_;              ///< the paths laid on the strokes, as far as is known
+  std::vector<double> placed_lengths_;       ///< of those
   std::vector<Outline> drawn_;               ///< of placed_
   std::vector<std::vector<Match>> singles_;  ///< of each path with each stroke
   Reading best_;

@@ -149,6 +149,18 @@ TEST_CASE("half a stroke is half covered, and the other half counts as far as it
   CHECK(result.contour < 0.1);
 }
 
+TEST_CASE("half a stroke written backwards leaves out the other half too", "[practice]") {
+  const PracticePage page = page_of("一");
+  const auto [start, end] = ends_of(page, 0, 0);
+  Pen forwards(page), backwards(page);
+  forwards.draw(straight(start, 0.5 * (start + end)));
+  backwards.draw(straight(0.5 * (start + end), start));
+  const CharacterScore one = forwards.scores().front(), other = backwards.scores().front();
+  CHECK(other.direction_mistakes() == 1);
+  CHECK(other.coverage == 0.0);
+  CHECK(other.overall_error == Approx(one.overall_error).epsilon(1e-3));
+}
+
 TEST_CASE("a stroke that was not written is as far off as it is from the ink of the others", "[practice]") {
   const PracticePage page = page_of("二");
   const auto [start, end] = ends_of(page, 0, 0);
@@ -306,6 +318,52 @@ TEST_CASE("a stroke broken in two is covered but for its gap, two joined are eac
   }
 }
 
+TEST_CASE("the motion of a character is that of its pen-downs, in metres and seconds", "[practice]") {
+  const PracticePage page = page_of("十");
+  Pen pen(page);
+  std::vector<double> lengths;
+  for (int stroke = 0; stroke < 2; ++stroke) {
+    const auto [start, end] = ends_of(page, 0, stroke);
+    pen.draw(straight(start, end));
+    lengths.push_back((end - start).norm());
+  }
+  const CharacterScore result = pen.scores().front();
+  REQUIRE(result.pen_downs.size() == 2);
+  const WritingMotion& motion = result.motion;
+  CHECK(motion.path_length == Approx(lengths[0] + lengths[1]).epsilon(1e-6));
+  CHECK(motion.mean_speed == Approx(1e-3).epsilon(0.02));  // 0.1 mm in a tick of 0.1 s
+  CHECK(motion.pen_ups == 1);
+  CHECK(motion.time_in_air == Approx(20.0).epsilon(0.02));  // 200 ticks
+  CHECK(motion.duration == Approx(motion.time_on_paper + motion.time_in_air));
+  CHECK(motion.velocity_peaks == 2);
+  CHECK(result.dtw_distance < 1e-4);
+  CHECK(result.mean_pressure > 0.0);
+  double sum = 0.0;
+  int count = 0;
+  for (const RecordedSample& sample : pen.recording().samples) {
+    if (sample.state == InteractionState::separation) continue;
+    sum += sample.force.z();
+    ++count;
+  }
+  CHECK(result.mean_pressure == Approx(sum / count));
+
+  Recording unfelt = pen.recording();
+  for (RecordedSample& sample : unfelt.samples) sample.force.setZero();
+  CHECK(std::isnan(score_page(page, unfelt).front().mean_pressure));
+}
+
+TEST_CASE("the DTW distance of a stroke is from the stroke as it is to be written", "[practice]") {
+  const PracticePage page = page_of("一");
+  const auto [start, end] = ends_of(page, 0, 0);
+  Pen shifted(page), backwards(page);
+  const Point across = 0.002 * Point(start.y() - end.y(), end.x() - start.x()).normalized();
+  shifted.draw(straight(start + across, end + across));
+  CHECK(shifted.scores().front().dtw_distance == Approx(0.002).epsilon(1e-3));
+  CHECK(shifted.scores().front().strokes[0].dtw_distance == Approx(0.002).epsilon(1e-3));
+  backwards.draw(straight(end, start));
+  CHECK(backwards.scores().front().dtw_distance > 0.25 * (end - start).norm());
+}
+
 TEST_CASE("lost samples are left out and counted", "[practice]") {
   const PracticePage page = page_of("永");
   Pen pen(page);
@@ -363,6 +421,10 @@ TEST_CASE("the recording of another page is refused", "[practice]") {
   for (const PracticePage* wrong : Pages{&in_millimetres, &elsewhere, &shorter}) {
     CHECK_THROWS_AS(score_page(*wrong, recording), ValueError);
   }
+  Recording back_in_time = recording;
+  back_in_time.samples[9].time = 0.001;
+  CHECK_THROWS_WITH(score_page(page, back_in_time),
+                    "the recording's sample 9: time 0.001 s is before that of a sample before it, 0.008 s");
   recording.samples[7].stroke = -1;
   CHECK_THROWS_WITH(score_page(page, recording),
                     "the recording is of another page: sample 7: stroke -1, expected 0 to 5");

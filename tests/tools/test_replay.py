@@ -49,6 +49,19 @@ class Replay(ReplayTest):
             self.assertEqual([d["strokes"] for d in trace["drawn"]], [[i + 1] for i in range(trace["strokes"])])
             self.assertEqual({d["course"] for d in trace["drawn"]}, {"forwards"})
 
+    def test_the_motion_of_the_person_is_told(self):
+        (trace,) = self.replay(character("十", TEN))["traces"]
+        motion = trace["motion"]
+        length = sum(math.dist(*line) for line in TEN) / 1000.0
+        self.assertAlmostEqual(motion["path_length_em"], length, places=3)  # coordinates are rounded to 1e-4 em
+        self.assertAlmostEqual(motion["mean_speed_em_per_s"], length / 0.8, places=3)  # 40 steps of 10 ms each
+        for name, value in (("duration_s", 1.4), ("time_on_paper_s", 0.8), ("time_in_air_s", 0.6)):
+            self.assertAlmostEqual(motion[name], value, places=9)
+        self.assertEqual((motion["pen_ups"], motion["velocity_peaks"]), (1, 2))
+        table = self.run_program("replay", "pens.txt").stdout
+        self.assertIn(f"{motion['path_length_em']:.2f}", table)
+        self.assertIn(f"{motion['smoothness_sparc']:.2f}", table)
+
     def test_a_trace_on_a_desk_gives_the_report_of_one_upright(self):
         trace = character("十", TEN)
         self.assertEqual(self.replay(trace, options=("--page", "desk")), self.replay(trace))

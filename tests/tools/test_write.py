@@ -109,6 +109,13 @@ class Write(ProgramTest):
             self.assertGreater(row["rms_error_mm"], 0.0)
             self.assertGreaterEqual(row["max_error_mm"], row["rms_error_mm"])
             self.assertGreater(row["tick_ns_p50"], 0.0)
+            motion = row["motion"]
+            self.assertAlmostEqual(motion["duration_s"], motion["time_on_paper_s"] + motion["time_in_air_s"], places=9)
+            self.assertAlmostEqual(motion["mean_speed_m_per_s"], motion["path_length_m"] / motion["time_on_paper_s"])
+            self.assertGreater(motion["peak_speed_m_per_s"], motion["mean_speed_m_per_s"])
+            self.assertLess(motion["smoothness_sparc"], -1.0)
+            self.assertGreater(row["dtw_distance_mm"], 0.0)
+            self.assertEqual(row["mean_pressure_N"] is None, row["mode"] == "vision")
             self.assertGreaterEqual(row["tick_ns_p999"], row["tick_ns_p50"])
             self.assertEqual(row["peak_force_N"] > 0.0, row["mode"] == "force")
             self.assertEqual(row["max_force_step_N"] > 0.0, row["mode"] == "force")

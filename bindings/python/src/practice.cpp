@@ -96,7 +96,7 @@ void add_practice(py::module_& module) {
       .def_static("skilled", &WriterSkill::skilled);
   add_struct<SessionOptions>(module);
   add_struct<MatchResult>(module).def("count", &MatchResult::count, "kind"_a);
-  add_types<StrokeScore, PenDownTime, MeanScore>(module);
+  add_types<PenKinematics, WritingMotion, StrokeScore, PenDownScore, MeanScore>(module);
   add_struct<CharacterScore>(module)
       .def("order_mistakes", &CharacterScore::order_mistakes)
       .def("direction_mistakes", &CharacterScore::direction_mistakes);
@@ -155,11 +155,13 @@ void add_practice(py::module_& module) {
   module.def("match_strokes", &match_of, "character"_a, "paths"_a, "tolerances"_a = StrokeTolerances(),
              "+ Each path is an array (n, 2) [em].");
 
-  add_types<PenKinematics>(module);
   module.def(
       "pen_kinematics",
       [](const ArrayLike& pen_down) { return released(&pen_kinematics)(pen_stroke(pen_down, "pen_down")); },
       "pen_down"_a, "+ An array (n, 3) as in PenTrace.strokes: x, y, time.");
+  module.def(
+      "writing_motion", [](const std::vector<PenKinematics>& pen_downs) { return writing_motion(pen_downs); },
+      "pen_downs"_a);
   module.def(
       "dtw_distance",
       [](const ArrayLike& one, const ArrayLike& other) {

@@ -64,7 +64,7 @@ def placed():
 OPTIONAL = {"mapping": lambda: records(cal.MotionMapping)}
 LISTS = {
     (cal.PracticePage, "characters"): placed,
-    (cal.CharacterScore, "pen_downs"): lambda: records(cal.PenDownTime),
+    (cal.CharacterScore, "pen_downs"): lambda: records(cal.PenDownScore),
     (cal.CharacterScore, "strokes"): lambda: records(cal.StrokeScore),
     (cal.MatchResult, "drawn"): lambda: records(cal.DrawnStroke),
     (cal.MatchResult, "remarks"): lambda: records(cal.StrokeRemark),
@@ -182,7 +182,7 @@ def test_a_bool_of_numpy_is_a_bool():
 def test_nan_equals_nan_in_every_field_type():
     nan = float("nan")
     assert cal.DeviceState() == cal.DeviceState() and cal.GripImpedance(mass=nan) == cal.GripImpedance(mass=nan) != cal.GripImpedance()
-    assert cal.PenDownTime(begin=nan) in [cal.PenDownTime(begin=nan)]
+    assert cal.PenKinematics(begin=nan) in [cal.PenKinematics(begin=nan)]
 
 
 @pytest.mark.parametrize("kind", RECORDS)

@@ -11,6 +11,7 @@ namespace calligraphy {
 /// Motion of one pen-down. Its path is low-passed first (pen_kinematics()); the unit is that of its points, such as em
 /// or m.
 struct PenKinematics {
+  double begin = 0.0;        ///< time of the first sample [s]
   double duration = 0.0;     ///< from the first sample to the last [s]
   double path_length = 0.0;  ///< of the low-passed path [unit]
   /// path_length / duration; NaN for a pen-down of less than 50 ms [unit/s]

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include <calligraphy/practice/page.hpp>
+#include <calligraphy/practice/pen_kinematics.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/stroke_matching.hpp>
+#include <calligraphy/practice/writing_motion.hpp>
 
 namespace calligraphy {
 
@@ -25,12 +27,13 @@ struct StrokeScore {
   /// `rms_error` with what was left out: the rest of the stroke, over its length, as far as it is from what was written
   /// of it. Of a stroke that was not written, all of it, as far as it is from any ink of the character [m].
   double overall_error = not_measured;
+  double dtw_distance = not_measured;  ///< dtw_distance() of what was written of it from the stroke [m]
 };
 
-/// When a pen-down began and ended.
-struct PenDownTime {
-  double begin = 0.0;  ///< [s]
-  double end = 0.0;    ///< [s]
+/// One pen-down of a character.
+struct PenDownScore {
+  PenKinematics motion;                 ///< in metres
+  double mean_pressure = not_measured;  ///< mean force across the paper (CharacterScore::mean_pressure) [N]
 };
 
 /// Score of a written character. What was not measured is NaN: errors where no stroke was written, the time of a
@@ -44,16 +47,21 @@ struct CharacterScore {
   /// `rms_error` with what was left out, of all strokes (StrokeScore::overall_error): a character that was broken off
   /// does not gain by it. NaN if there is no ink [m].
   double overall_error = not_measured;
-  double coverage = 0.0;        ///< share of the length of all strokes that was written in order [1]
-  int stroke_count = 0;         ///< strokes of the character
-  int strokes_written = 0;      ///< of these, strokes that a pen-down wrote, wholly or in part: those of `rms_error`
-  int strokes_completed = 0;    ///< of these, strokes that the session took for finished
-  int lost_samples = 0;         ///< samples without a usable position (TickStatus), left out of everything above
-  double peak_force = 0.0;      ///< on the page (RecordedSample::force) [N]
-  double max_force_step = 0.0;  ///< of that, from one tick to the next [N]
-  MatchResult match;            ///< what each pen-down wrote, and every mistake
-  std::vector<PenDownTime> pen_downs;  ///< of those in `match`
-  std::vector<StrokeScore> strokes;    ///< one per stroke of the character
+  double coverage = 0.0;      ///< share of the length of all strokes that was written in order [1]
+  int stroke_count = 0;       ///< strokes of the character
+  int strokes_written = 0;    ///< of these, strokes that a pen-down wrote, wholly or in part: those of `rms_error`
+  int strokes_completed = 0;  ///< of these, strokes that the session took for finished
+  int lost_samples = 0;       ///< samples without a usable position (TickStatus), left out of everything above
+  WritingMotion motion;       ///< of all pen-downs, in metres
+  double dtw_distance = not_measured;  ///< mean of those of the strokes written [m]
+  /// Mean force across the paper while the pen is on it, over time: how hard the pen is pressed. NaN where no force was
+  /// rendered, as with vision alone [N].
+  double mean_pressure = not_measured;
+  double peak_force = 0.0;              ///< on the page (RecordedSample::force) [N]
+  double max_force_step = 0.0;          ///< of that, from one tick to the next [N]
+  MatchResult match;                    ///< what each pen-down wrote, and every mistake
+  std::vector<PenDownScore> pen_downs;  ///< of those in `match`
+  std::vector<StrokeScore> strokes;     ///< one per stroke of the character
 
   // The perceptible elements of Fig. 2, each in [0, 1]. A stroke that was not written counts as 0 in each.
   /// Mean of exp(-StrokeScore::overall_error / 5 % of the em) over all strokes.
@@ -72,7 +80,7 @@ struct CharacterScore {
 /// which of its strokes it wrote, in which order and direction, match_strokes() tells. Distances are those on the page,
 /// without the alignment by which match_strokes() recognises what is meant.
 /// @throws ValueError when the page or a tolerance is invalid, when the recording was made on another page
-/// (Recording::page, or events that this page cannot have had), or as match_strokes()
+/// (Recording::page, or events that this page cannot have had), when its time runs backwards, or as match_strokes()
 std::vector<CharacterScore> score_page(const PracticePage& page, const Recording& recording,
                                        const StrokeTolerances& tolerances = {});
 

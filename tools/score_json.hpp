@@ -1,0 +1,41 @@
+// What summary.json and replay.json tell in the same way: remarks on pen-downs and the motion of a pen.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <calligraphy/practice/stroke_matching.hpp>
+#include <calligraphy/practice/writing_motion.hpp>
+
+namespace calligraphy::tools {
+
+inline nlohmann::ordered_json remark_json(const StrokeRemark& remark) {
+  using Json = nlohmann::ordered_json;
+  return {{"kind", calligraphy::to_string(remark.kind)},
+          {"pen_down", remark.path >= 0 ? Json(remark.path + 1) : Json()},
+          {"stroke", remark.stroke >= 0 ? Json(remark.stroke + 1) : Json()},
+          {"reason", remark.reason}};
+}
+
+/// With the unit of length in the names; null for what was not measured.
+inline nlohmann::ordered_json motion_json(const WritingMotion& motion, const std::string& unit) {
+  return {{"duration_s", motion.duration},
+          {"time_on_paper_s", motion.time_on_paper},
+          {"time_in_air_s", motion.time_in_air},
+          {"pen_ups", motion.pen_ups},
+          {"path_length_" + unit, motion.path_length},
+          {"mean_speed_" + unit + "_per_s", motion.mean_speed},
+          {"peak_speed_" + unit + "_per_s", motion.peak_speed},
+          {"velocity_peaks", motion.velocity_peaks},
+          {"smoothness_sparc", motion.smoothness}};
+}
+
+/// For tables: "-" for what was not measured.
+inline std::string fixed(double value, int decimals) {
+  return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
+}
+
+}  // namespace calligraphy::tools
