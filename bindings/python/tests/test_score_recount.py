@@ -477,7 +477,7 @@ def told(score):
     """The same row as score_page() tells it."""
     row = {name: getattr(score, name) for name in count(session(0), 0) if hasattr(score, name)}
     row["order_mistakes"], row["direction_mistakes"] = score.order_mistakes(), score.direction_mistakes()
-    row["pen_downs"] = [(down.begin, down.end) for down in score.pen_downs]
+    row["pen_downs"] = [(down.motion.begin, down.motion.begin + down.motion.duration) for down in score.pen_downs]
     row["drawn"] = [down.stroke for down in score.match.drawn]
     row["directions"] = [down.direction.name for down in score.match.drawn if down.stroke >= 0]
     for kind in ("extra", "missing", "broken"):
