@@ -502,7 +502,7 @@ def differences(got, expected, path=""):
                 yield here, other, value
         else:
             relative, absolute = {
-                "coverage": (0.0, 0.03),
+                "coverage": (0.0, 0.02),
                 "overall_error": (0.03, 2e-5),
                 "contour": (0.02, 1e-6),
                 "fidelity": (0.01, 1e-6),
