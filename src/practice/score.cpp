@@ -229,12 +229,13 @@ class CharacterScorer {
   void add_rest(std::size_t stroke, PathError& error) const {
     const Written& written = written_[stroke];
     const std::vector<Point>& line = templates_[stroke].line;
-    const double step = templates_[stroke].length / static_cast<double>(line.size() - 1);
-    for (std::size_t k = 0; k < line.size(); ++k) {
-      const double place = static_cast<double>(k) / static_cast<double>(line.size() - 1);
+    const auto pieces = static_cast<double>(line.size() - 1);
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      const double place = (static_cast<double>(k) + 0.5) / pieces;
       const bool done = std::any_of(written.parts.begin(), written.parts.end(),
                                     [place](const Interval& part) { return part.from <= place && place <= part.to; });
-      if (!done) error.add(distance_to_ink(line[k], written), step);
+      const Point middle = 0.5 * (line[k] + line[k + 1]);
+      if (!done) error.add(distance_to_ink(middle, written), templates_[stroke].length / pieces);
     }
   }
 

@@ -144,7 +144,7 @@ TEST_CASE("half a stroke is half covered, and the other half counts as far as it
   CHECK(result.strokes_completed == 0);
   CHECK(result.coverage == Approx(0.5).margin(0.011));
   CHECK(result.rms_error < 1e-7);
-  CHECK(result.overall_error == Approx(length / std::sqrt(24.0)).epsilon(0.03));  // of x^2 over half of the length
+  CHECK(result.overall_error == Approx(length / std::sqrt(24.0)).epsilon(0.003));  // of x^2 over half of the length
   CHECK(std::isnan(result.time));
   CHECK(result.contour < 0.1);
 }
