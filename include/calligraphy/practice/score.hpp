@@ -19,9 +19,9 @@ inline constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 /// What was written of a stroke of the character.
 struct StrokeScore {
-  int pen_down = -1;                ///< the first one that wrote it, an index into MatchResult::drawn; -1: none
-  bool completed = false;           ///< the session took it for finished
-  double coverage = 0.0;            ///< share of its length that was written in order [1]
+  int pen_down = -1;       ///< the first one that wrote it, an index into MatchResult::drawn; -1: none
+  bool completed = false;  ///< the session took it for finished
+  double coverage = 0.0;   ///< share of its length that was written in order; 0 if it was written backwards [1]
   double rms_error = not_measured;  ///< distance of the pen from the stroke, over the length of the pen's path [m]
   double max_error = not_measured;  ///< the largest distance of the pen from the stroke [m]
   /// `rms_error` with what was left out: the rest of the stroke, over its length, as far as it is from what was written
