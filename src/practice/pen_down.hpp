@@ -21,7 +21,8 @@ struct PenDown {
   double pressed = 0.0;  ///< sum of the force out of the paper over the samples [N]
 };
 
-/// A lift of at most 50 ms is a bounce and ends no pen-down, nor does it end where samples are lost for no longer.
+/// A lift of at most 50 ms is a bounce and ends no pen-down, nor does it end where samples are lost for at most 100 ms
+/// and no sample shows a lift: people take longer from one stroke to the next.
 std::vector<PenDown> pen_downs(const Recording& recording);
 
 }  // namespace calligraphy

@@ -8,7 +8,6 @@
 
 #include <calligraphy/practice/dtw_distance.hpp>
 #include <calligraphy/practice/pen_path.hpp>
-#include <calligraphy/render/detail/prepared_page.hpp>
 
 #include "pen_down.hpp"
 #include "recorded_page.hpp"
@@ -25,10 +24,11 @@ constexpr std::size_t line_points = 101;    // of a stroke: its coverage is told
 struct PathError {
   double length = 0.0, square = 0.0, largest = 0.0;
 
-  void add(double error, double step) {
+  /// A step that is off by so much at its two ends.
+  void add(double from, double to, double step) {
     length += step;
-    square += error * error * step;
-    largest = std::max(largest, error);
+    square += 0.5 * (from * from + to * to) * step;
+    largest = std::max({largest, from, to});
   }
   void add(const PathError& other) {
     length += other.length;
@@ -199,11 +199,21 @@ class CharacterScorer {
   /// Those that lie along a part of the line; whether there are any.
   bool add_points(const std::vector<Point>& points, const Alignment& whole, const LinePart& part, Written& written) {
     const std::size_t before = written.points.size();
+    double last_error = 0.0;
+    bool goes_on = false;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (whole.places[i] < part.from || whole.places[i] > part.to) continue;
-      const double step = i > 0 ? (points[i] - points[i - 1]).norm() : 0.0;
-      written.error.add(templates_[part.stroke].distance_from(points[i]), step);
-      written.points.push_back(points[i]);
+      const bool lies_along = part.from <= whole.places[i] && whole.places[i] <= part.to;
+      if (lies_along) {
+        const double error = templates_[part.stroke].distance_from(points[i]);
+        if (goes_on) {
+          written.error.add(last_error, error, (points[i] - points[i - 1]).norm());
+        } else {
+          written.error.add(error, error, 0.0);
+        }
+        last_error = error;
+        written.points.push_back(points[i]);
+      }
+      goes_on = lies_along;
     }
     return written.points.size() > before;
   }
@@ -235,7 +245,9 @@ class CharacterScorer {
       const bool done = std::any_of(written.parts.begin(), written.parts.end(),
                                     [place](const Interval& part) { return part.from <= place && place <= part.to; });
       const Point middle = 0.5 * (line[k] + line[k + 1]);
-      if (!done) error.add(distance_to_ink(middle, written), templates_[stroke].length / pieces);
+      if (done) continue;
+      const double distance = distance_to_ink(middle, written);
+      error.add(distance, distance, templates_[stroke].length / pieces);
     }
   }
 

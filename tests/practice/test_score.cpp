@@ -352,6 +352,23 @@ TEST_CASE("the motion of a character is that of its pen-downs, in metres and sec
   CHECK(std::isnan(score_page(page, unfelt).front().mean_pressure));
 }
 
+TEST_CASE("the error is over the way of the pen, however far apart its samples are", "[practice]") {
+  const PracticePage page = page_of("一");
+  const auto [start, end] = ends_of(page, 0, 0);
+  const Point across = 0.002 * Point(start.y() - end.y(), end.x() - start.x()).normalized();
+  for (const double steps : {10.0, 1000.0}) {
+    std::vector<Point> away;  // from 0 to 2 mm beside the stroke: on average 2 mm / sqrt(3)
+    for (int i = 0; i <= static_cast<int>(steps); ++i) away.push_back(start + (end - start + across) * i / steps);
+    std::vector<Point> back(away.rbegin(), away.rend());
+    for (const std::vector<Point>& path : {away, back}) {
+      Pen pen(page);
+      pen.draw(path);
+      CHECK(pen.scores().front().rms_error == Approx(0.002 / std::sqrt(3.0)).epsilon(0.005));
+      CHECK(pen.scores().front().max_error == Approx(0.002).epsilon(1e-3));
+    }
+  }
+}
+
 TEST_CASE("the DTW distance of a stroke is from the stroke as it is to be written", "[practice]") {
   const PracticePage page = page_of("一");
   const auto [start, end] = ends_of(page, 0, 0);

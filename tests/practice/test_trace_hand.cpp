@@ -107,10 +107,20 @@ TEST_CASE("the pen-downs of a recording are its contacts, without bounces and re
   add(0.01, InteractionState::adjusting);
   add(0.04, InteractionState::adjusting, TickStatus::bad_sample);
   add(0.01, InteractionState::adjusting);
+  add(0.09, InteractionState::separation, TickStatus::bad_sample);  // nobody is at another stroke within 90 ms
+  add(0.01, InteractionState::adjusting);
+  add(0.11, InteractionState::separation, TickStatus::bad_sample);
+  add(0.04, InteractionState::adjusting);
+  add(0.04, InteractionState::adjusting, TickStatus::bad_sample);
+  add(0.005, up);  // a lift was seen
+  add(0.04, InteractionState::adjusting, TickStatus::bad_sample);
+  add(0.05, InteractionState::adjusting);
   const std::vector<PenPath> paths = pen_paths(recording, placement);
-  REQUIRE(paths.size() == 2);
+  REQUIRE(paths.size() == 4);
   CHECK(paths[0].size() == 400);
-  CHECK(paths[1].size() == 20);
+  CHECK(paths[1].size() == 30);
+  CHECK(paths[2].size() == 40);
+  CHECK(paths[3].size() == 50);
   CHECK(paths[0].front().isApprox(Point(0.25, 0.25)));
 }
 

@@ -1,6 +1,7 @@
 // A character placed on the page.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -17,6 +18,8 @@ struct Placement {
 
   static constexpr double min_em = 1e-6;  ///< [m]
   static constexpr double max_em = 1e3;   ///< [m]
+  /// The furthest that a character may reach from the page's origin, along x or y [m].
+  static constexpr double max_coordinate = 1e3;
 
   /// From em coordinates [em] to the page [m].
   Point to_page(const Point& point) const noexcept { return origin + em * point; }
@@ -33,5 +36,8 @@ std::vector<StrokeElement> place_elements(const Stroke& stroke, const Placement&
 
 /// Bounding box of the control points of a character on the page [m].
 Eigen::AlignedBox2d bounding_box(const PlacedCharacter& placed);
+
+/// @throws ValueError naming the character of a page that is invalid, or when there is none
+void validate(std::span<const PlacedCharacter> page);
 
 }  // namespace calligraphy

@@ -23,7 +23,8 @@ std::vector<PenPath> pen_paths(const PenTrace& trace);
 
 /// The pen-downs of a recording, in the coordinates of a character's square, whether or not the renderer accepted them
 /// as strokes: the samples from each contact to the lift, without rejected ones. A lift of at most 50 ms is a bounce,
-/// not an intended lift: voluntary motion ends at 10 Hz.
+/// not an intended lift: voluntary motion ends at 10 Hz. Nor does a pen-down end where samples are lost for at most
+/// 100 ms and none shows a lift.
 std::vector<PenPath> pen_paths(const Recording& recording, const Placement& placement);
 
 /// Translates the em square and scales it along x and y, without rotation.

@@ -40,7 +40,8 @@ struct PenDownScore {
 /// character that was not completed.
 struct CharacterScore {
   char32_t character = 0;  ///< its Unicode code point
-  /// From the first pen-down to the end of the last stroke; NaN unless the character was completed [s].
+  /// From the first pen-down to the tick in which the session took the last stroke for finished; NaN unless the
+  /// character was completed [s].
   double time = not_measured;
   double rms_error = not_measured;  ///< of the strokes written: distance of the pen, over the length of its path [m]
   double max_error = not_measured;  ///< of the strokes written: the largest distance of the pen [m]
@@ -51,13 +52,13 @@ struct CharacterScore {
   int stroke_count = 0;       ///< strokes of the character
   int strokes_written = 0;    ///< of these, strokes that a pen-down wrote, wholly or in part: those of `rms_error`
   int strokes_completed = 0;  ///< of these, strokes that the session took for finished
-  int lost_samples = 0;       ///< samples without a usable position (TickStatus), left out of everything above
+  int lost_samples = 0;       ///< without a usable position (TickStatus), while the character was active: left out
   WritingMotion motion;       ///< of all pen-downs, in metres
   double dtw_distance = not_measured;  ///< mean of those of the strokes written [m]
   /// Mean force across the paper while the pen is on it, over time: how hard the pen is pressed. NaN where no force was
   /// rendered, as with vision alone [N].
   double mean_pressure = not_measured;
-  double peak_force = 0.0;              ///< on the page (RecordedSample::force) [N]
+  double peak_force = 0.0;              ///< on the page, while the character was active (RecordedSample::force) [N]
   double max_force_step = 0.0;          ///< of that, from one tick to the next [N]
   MatchResult match;                    ///< what each pen-down wrote, and every mistake
   std::vector<PenDownScore> pen_downs;  ///< of those in `match`

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/devices/velocity_estimator.hpp>
 #include <calligraphy/render/detail/pen_state.hpp>
@@ -19,7 +20,7 @@ namespace calligraphy {
 class PenSensor {
  public:
   /// A pen farther from the page's origin along any axis is a fault, whatever its speed [m].
-  static constexpr double max_coordinate = 1e3;
+  static constexpr double max_coordinate = Placement::max_coordinate;
 
   /// The options must be valid.
   PenSensor(const RendererOptions& options, const MotionMapping& mapping);

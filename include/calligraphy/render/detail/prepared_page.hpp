@@ -14,9 +14,6 @@
 
 namespace calligraphy {
 
-/// @throws ValueError naming the character that is invalid, or when there is none
-void validate(const std::vector<PlacedCharacter>& page);
-
 /// With its own progress, which begins anew with each attempt.
 struct PreparedStroke {
   ActiveStroke geometry;
