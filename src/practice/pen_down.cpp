@@ -6,6 +6,7 @@ namespace calligraphy {
 namespace {
 
 constexpr double max_bounce = 0.05;  // nobody lifts a pen and lowers it again within half a period of 10 Hz [s]
+constexpr double rounding = 1e-6;    // of times [s]
 constexpr double max_lost = 0.1;     // nor lifts it, goes to the next stroke and lowers it within this time [s]
 
 }  // namespace
@@ -22,15 +23,16 @@ std::vector<PenDown> pen_downs(const Recording& recording) {
     const bool on_paper = sample.state != InteractionState::separation;
     if (on_paper) {
       const double longest = was_on_paper ? max_lost : max_bounce;
-      const bool goes_on = !result.empty() &&
-                           ((was_on_paper && !was_lost) || sample.time <= result.back().samples.back().time + longest);
-      if (!goes_on) result.push_back({sample.character, {}, 0.0});
+      const bool goes_on = !result.empty() && ((was_on_paper && !was_lost) ||
+                                               sample.time <= result.back().samples.back().time + longest + rounding);
+      if (!goes_on) result.push_back({sample.character, {}, 0.0, true});
       result.back().pressed += std::max(0.0, sample.force.z());
       result.back().samples.push_back({sample.pen_tip.head<2>(), sample.time});
     }
     was_on_paper = on_paper;
     was_lost = false;
   }
+  if (was_on_paper) result.back().lifted = false;
   return result;
 }
 

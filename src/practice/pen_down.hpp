@@ -19,6 +19,7 @@ struct PenDown {
   int character = 0;     ///< the one that was active when it began
   PenStroke samples;     ///< usable ones on the paper [m, s]
   double pressed = 0.0;  ///< sum of the force out of the paper over the samples [N]
+  bool lifted = true;    ///< false of the last one, where the recording ends on the paper
 };
 
 /// A lift of at most 50 ms is a bounce and ends no pen-down, nor does it end where samples are lost for at most 100 ms

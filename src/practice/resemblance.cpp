@@ -41,6 +41,15 @@ std::vector<Point> points_along(std::span<const Point> path, double length, std:
   return points;
 }
 
+std::vector<Point> without_jitter(std::span<const Point> path, double spacing) {
+  std::vector<Point> kept;
+  for (const Point& point : path) {
+    if (kept.empty() || (point - kept.back()).norm() >= spacing) kept.push_back(point);
+  }
+  if (!path.empty() && kept.back() != path.back()) kept.push_back(path.back());
+  return kept;
+}
+
 Outline outline(std::span<const Point> path, double length) {
   Outline result;
   points_along(path, length, result);

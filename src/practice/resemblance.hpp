@@ -16,6 +16,13 @@ void points_along(std::span<const Point> path, double length, std::span<Point> p
 /// `count` such points.
 std::vector<Point> points_along(std::span<const Point> path, double length, std::size_t count);
 
+/// The points of a path that are at least this far from the last one kept, and its ends: a pen that rests does not draw
+/// on, although its sensor never rests.
+std::vector<Point> without_jitter(std::span<const Point> path, double spacing);
+
+/// Spacing of the points of a pen-down from which it is read [em].
+inline constexpr double pen_spacing = 0.005;
+
 /// Points of a path at even steps of its length, the ends included.
 using Outline = std::array<Point, 32>;
 

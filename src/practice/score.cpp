@@ -13,6 +13,7 @@
 #include "recorded_page.hpp"
 #include "resemblance.hpp"
 #include "stroke_alignment.hpp"
+#include "unfinished_stroke.hpp"
 
 namespace calligraphy {
 namespace {
@@ -45,10 +46,10 @@ double distance_to_segment(const Point& point, const Point& from, const Point& t
   return (from + share * way - point).norm();
 }
 
-double distance_to_path(const Point& point, const PenStroke& path) {
-  double nearest = (path.front().point - point).norm();
+double distance_to_path(const Point& point, const std::vector<Point>& path) {
+  double nearest = (path.front() - point).norm();
   for (std::size_t i = 1; i < path.size(); ++i) {
-    nearest = std::min(nearest, distance_to_segment(point, path[i - 1].point, path[i].point));
+    nearest = std::min(nearest, distance_to_segment(point, path[i - 1], path[i]));
   }
   return nearest;
 }
@@ -63,14 +64,15 @@ std::vector<Point> points_of(const PenStroke& samples) {
 /// A stroke of the page, prepared.
 struct Template {
   std::vector<StrokeElement> elements;
-  std::vector<Point> line;  ///< at even steps
+  std::vector<Point> fine;  ///< with its corners
   double length;            ///< [m]
+  std::vector<Point> line;  ///< at even steps
 
-  Template(const Stroke& stroke, const Placement& placement) : elements(place_elements(stroke, placement)) {
-    const std::vector<Point> fine = middle_line(stroke, placement);
-    length = path_length(fine);
-    line = points_along(fine, length, line_points);
-  }
+  Template(const Stroke& stroke, const Placement& placement)
+      : elements(place_elements(stroke, placement)),
+        fine(middle_line(stroke, placement)),
+        length(path_length(fine)),
+        line(points_along(fine, length, line_points)) {}
 
   double distance_from(const Point& tip) const {
     double nearest = std::numeric_limits<double>::infinity();
@@ -134,12 +136,12 @@ class CharacterScorer {
     result_.strokes.resize(templates_.size());
     std::vector<PenPath> paths;
     for (const PenDown* down : downs_) {
+      paths_.push_back(without_jitter(points_of(down->samples), pen_spacing * placement_.em));
       PenPath& path = paths.emplace_back();
-      for (const TimedPoint& sample : down->samples) {
-        path.push_back((sample.point - placement_.origin) / placement_.em);
-      }
+      for (const Point& point : paths_.back()) path.push_back((point - placement_.origin) / placement_.em);
       result_.pen_downs.push_back({pen_kinematics(down->samples), mean_pressure({&down, 1})});
     }
+    if (!downs_.empty() && !downs_.back()->lifted) paths.back() = finish_last(placed.character, paths, tolerances);
     result_.match = match_strokes(placed.character, paths, tolerances);
   }
 
@@ -159,7 +161,7 @@ class CharacterScorer {
   void read(std::size_t path) {
     const DrawnStroke& drawn = result_.match.drawn[path];
     if (drawn.stroke < 0) return;
-    const std::vector<Point> points = points_of(downs_[path]->samples);
+    const std::vector<Point>& points = paths_[path];
     const bool backwards = drawn.direction == WritingDirection::backwards;
     const JoinedLine line = join(drawn, backwards);
     const Alignment whole = align(points, points_along(line.points, path_length(line.points), line.points.size()));
@@ -218,25 +220,19 @@ class CharacterScorer {
     return written.points.size() > before;
   }
 
-  /// Returns its error with what was left out.
-  PathError measure(std::size_t stroke) {
+  void measure(std::size_t stroke) {
     const Written& written = written_[stroke];
+    if (written.paths.empty()) return;
     StrokeScore& score = result_.strokes[stroke];
-    if (!written.paths.empty()) {
-      score.pen_down = static_cast<int>(written.paths.front());
-      score.coverage = written.backwards ? 0.0 : covered(written.parts);
-      score.rms_error = written.error.rms();
-      score.max_error = written.error.largest;
-      score.dtw_distance = dtw_distance(written.points, templates_[stroke].line);
-    }
-    PathError overall = written.error;
-    add_rest(stroke, overall);
-    if (!downs_.empty()) score.overall_error = overall.rms();
-    return overall;
+    score.pen_down = static_cast<int>(written.paths.front());
+    score.coverage = written.backwards ? 0.0 : covered(written.parts);
+    score.rms_error = written.error.rms();
+    score.max_error = written.error.largest;
+    score.dtw_distance = dtw_distance(written.points, templates_[stroke].fine);
   }
 
-  /// What was left out of a stroke, as far as it is from the ink.
-  void add_rest(std::size_t stroke, PathError& error) const {
+  /// What was left out of a stroke, as far as it is from the ink, and at least as far as what was written.
+  void add_rest(std::size_t stroke, double least, PathError& error) const {
     const Written& written = written_[stroke];
     const std::vector<Point>& line = templates_[stroke].line;
     const auto pieces = static_cast<double>(line.size() - 1);
@@ -246,27 +242,37 @@ class CharacterScorer {
                                     [place](const Interval& part) { return part.from <= place && place <= part.to; });
       const Point middle = 0.5 * (line[k] + line[k + 1]);
       if (done) continue;
-      const double distance = distance_to_ink(middle, written);
+      const double distance = std::max(least, distance_to_ink(middle, written));
       error.add(distance, distance, templates_[stroke].length / pieces);
     }
   }
 
-  /// Of the stroke, or of the whole character where it was not written.
+  /// Of the stroke, or of all strokes where it was not written.
   double distance_to_ink(const Point& point, const Written& written) const {
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t path = 0; path < downs_.size(); ++path) {
+    for (std::size_t path = 0; path < paths_.size(); ++path) {
       const auto& own = written.paths;
-      if (!own.empty() && std::find(own.begin(), own.end(), path) == own.end()) continue;
-      nearest = std::min(nearest, distance_to_path(point, downs_[path]->samples));
+      const bool counts =
+          own.empty() ? result_.match.drawn[path].stroke >= 0 : std::find(own.begin(), own.end(), path) != own.end();
+      if (counts) nearest = std::min(nearest, distance_to_path(point, paths_[path]));
     }
     return nearest;
+  }
+
+  /// A pen-down that joined several strokes has one remark.
+  int strokes_with(StrokeRemarkKind kind) const {
+    int count = 0;
+    for (const StrokeRemark& remark : result_.match.remarks) {
+      if (remark.kind == kind) count += result_.match.drawn[static_cast<std::size_t>(remark.path)].stroke_count;
+    }
+    return count;
   }
 
   void combine() {
     PathError written, overall;
     double length = 0.0, contour = 0.0, covered_length = 0.0, dtw = 0.0;
     for (std::size_t i = 0; i < templates_.size(); ++i) {
-      overall.add(measure(i));
+      measure(i);
       const StrokeScore& score = result_.strokes[i];
       length += templates_[i].length;
       covered_length += score.coverage * templates_[i].length;
@@ -274,25 +280,34 @@ class CharacterScorer {
       ++result_.strokes_written;
       written.add(written_[i].error);
       dtw += score.dtw_distance;
-      contour += std::exp(-score.overall_error / (contour_tolerance * placement_.em));
     }
     result_.coverage = length > 0.0 ? covered_length / length : 0.0;
-    if (!downs_.empty()) result_.overall_error = overall.rms();
     if (result_.strokes_written == 0) return;
+    for (std::size_t i = 0; i < templates_.size(); ++i) {
+      StrokeScore& score = result_.strokes[i];
+      const bool is_written = score.pen_down >= 0;
+      PathError of_stroke = written_[i].error;
+      add_rest(i, is_written ? score.rms_error : written.rms(), of_stroke);
+      score.overall_error = of_stroke.rms();
+      overall.add(of_stroke);
+      if (is_written) contour += std::exp(-score.overall_error / (contour_tolerance * placement_.em));
+    }
+    result_.overall_error = overall.rms();
     result_.rms_error = written.rms();
     result_.max_error = written.largest;
     result_.dtw_distance = dtw / result_.strokes_written;
     const double strokes = result_.stroke_count, right = result_.strokes_written;
     result_.contour = contour / strokes;
-    result_.external_sequence =
-        std::max(0.0, right - result_.order_mistakes()) / (strokes + result_.match.count(StrokeRemarkKind::extra));
-    result_.internal_sequence = std::max(0.0, right - result_.direction_mistakes()) / strokes;
+    result_.external_sequence = std::max(0.0, right - strokes_with(StrokeRemarkKind::order)) /
+                                (strokes + result_.match.count(StrokeRemarkKind::extra));
+    result_.internal_sequence = std::max(0.0, right - strokes_with(StrokeRemarkKind::direction)) / strokes;
     result_.fidelity = std::cbrt(result_.contour * result_.external_sequence * result_.internal_sequence);
   }
 
   const Placement placement_;
   const std::vector<const PenDown*> downs_;
   std::vector<Template> templates_;
+  std::vector<std::vector<Point>> paths_;  ///< of the pen-downs [m]
   CharacterScore result_;
   std::vector<Written> written_;  ///< of each stroke
 };
@@ -332,7 +347,7 @@ void add_session(const Recording& recording, const PracticePage& page, std::vect
       CharacterScore& score = scores[active];
       score.lost_samples += is_usable(sample) ? 0 : 1;
       score.peak_force = std::max(score.peak_force, sample.force.norm());
-      if (before != nullptr) {
+      if (before != nullptr && before->character == sample.character) {
         score.max_force_step = std::max(score.max_force_step, (sample.force - before->force).norm());
       }
     }

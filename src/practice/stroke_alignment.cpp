@@ -14,13 +14,13 @@ namespace {
 
 /// The points of a longer path are further apart than those of the line.
 constexpr double max_path_points = 4000.0;
+constexpr int max_shifts = 10;
+constexpr double min_shift = 1e-3;  // of the line's length
 
 /// From which pair an optimal alignment came to this one.
 enum class Move : std::uint8_t { begin, both, path, line };
 
-}  // namespace
-
-Alignment align(std::span<const Point> path, std::span<const Point> line) {
+Alignment align_in_place(std::span<const Point> path, std::span<const Point> line) {
   const double spacing = path_length(line) / static_cast<double>(line.size() - 1);
   const double length = path_length(path);
   const double pieces = spacing > 0.0 ? std::clamp(std::ceil(length / spacing), 1.0, max_path_points) : 1.0;
@@ -64,6 +64,34 @@ Alignment align(std::span<const Point> path, std::span<const Point> line) {
     if (k > 0) way += (path[k] - path[k - 1]).norm();
     const double row = length > 0.0 ? way / length * pieces : 0.0;
     result.places.push_back(places[std::min(static_cast<std::size_t>(row), rows - 1)]);
+  }
+  return result;
+}
+
+/// From the points of a path to where it lies along the line.
+Point mean_offset(std::span<const Point> path, const Alignment& alignment, std::span<const Point> line) {
+  Point sum = Point::Zero();
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double column = alignment.places[i] * static_cast<double>(line.size() - 1);
+    sum += line[static_cast<std::size_t>(std::lround(column))] - path[i];
+  }
+  return sum / static_cast<double>(path.size());
+}
+
+}  // namespace
+
+Alignment align(std::span<const Point> path, std::span<const Point> line) {
+  Alignment result = align_in_place(path, line);
+  std::vector<Point> moved(path.begin(), path.end());
+  const double enough = min_shift * path_length(line);
+  for (int i = 0; i < max_shifts; ++i) {
+    const bool begins = result.begin == 0.0, ends = result.end == 1.0;
+    if (begins && ends) break;
+    const Point shift = begins ? Point(line.front() - moved.front())
+                               : (ends ? Point(line.back() - moved.back()) : mean_offset(moved, result, line));
+    if (shift.norm() <= enough) break;
+    for (Point& point : moved) point += shift;
+    result = align_in_place(moved, line);
   }
   return result;
 }

@@ -618,7 +618,9 @@ MatchResult match_strokes(const Character& character, std::span<const PenPath> p
                           const StrokeTolerances& tolerances) {
   require_valid(character, paths);
   validate(tolerances);
-  return Judge(character, paths, tolerances).run();
+  std::vector<PenPath> steady;
+  for (const PenPath& path : paths) steady.push_back(without_jitter(path, pen_spacing));
+  return Judge(character, steady, tolerances).run();
 }
 
 }  // namespace calligraphy

@@ -204,6 +204,136 @@ TEST_CASE("a stroke beside its place is covered whole", "[practice]") {
   CHECK(result.rms_error == Approx(0.004).epsilon(0.01));
 }
 
+TEST_CASE("a displaced stroke is no shorter, whatever its shape and wherever it was moved", "[practice]") {
+  for (const Character& character : built_in_characters().characters) {
+    if (character.stroke_count() < 2) continue;
+    const PracticePage page = lay_out(std::span(&character, 1)).front();
+    for (const Point& shift : {Point(0.003, 0.0), Point(-0.003, 0.0), Point(0.002, 0.002), Point(0.0, -0.003)}) {
+      CAPTURE(encode_utf8(character.code), shift.x(), shift.y());
+      Pen pen(page, 1e-3);
+      for (int i = 0; i < character.stroke_count(); ++i) pen.draw(0, i, shift);
+      const CharacterScore result = pen.scores().front();
+      CHECK(result.strokes_written == character.stroke_count());
+      CHECK(result.coverage > 0.97);
+      for (const StrokeScore& stroke : result.strokes) CHECK(stroke.coverage > 0.93);
+    }
+  }
+}
+
+TEST_CASE("what was left out is never nearer than what was written", "[practice]") {
+  const PracticePage page = page_of("十");
+  const auto [start, end] = ends_of(page, 0, 0);
+  const Point aside(0.0, 0.003);
+  Pen pen(page);  // the second stroke crosses the first, which is 3 mm off and has lost its last tenth
+  pen.draw(straight(start + aside, end - 0.1 * (end - start) + aside));
+  const CharacterScore result = pen.scores().front();
+  CHECK(result.strokes_written == 1);
+  CHECK(result.strokes[0].overall_error >= result.strokes[0].rms_error);
+  CHECK(result.strokes[1].overall_error >= result.rms_error);
+  CHECK(result.overall_error > result.rms_error);
+}
+
+TEST_CASE("ink that is no stroke is near none that was left out", "[practice]") {
+  const PracticePage page = page_of("国");
+  const Placement& placement = page.characters[0].placement;
+  std::vector<Point> scribble;
+  for (int i = 0; i < 40; ++i) {
+    for (const int j : {0, 1}) {
+      const auto next = straight(scribble.empty() ? placement.origin : scribble.back(),
+                                 placement.to_page(Point((i + j) % 2, i / 39.0)));
+      scribble.insert(scribble.end(), next.begin(), next.end());
+    }
+  }
+  Pen nothing(page), scribbled(page), clean(page);
+  nothing.draw(scribble);
+  clean.draw(0, 0);
+  scribbled.draw(0, 0);
+  scribbled.draw(scribble);
+  CHECK(nothing.scores().front().strokes_written == 0);
+  CHECK(std::isnan(nothing.scores().front().overall_error));
+  CHECK(scribbled.scores().front().overall_error == Approx(clean.scores().front().overall_error).epsilon(0.01));
+}
+
+TEST_CASE("a pen that rests adds nothing, however its sensor flickers", "[practice]") {
+  const PracticePage page = page_of("十");
+  Pen steady(page), flickering(page);
+  for (int stroke = 0; stroke < 2; ++stroke) {
+    const auto [start, end] = ends_of(page, 0, stroke);
+    std::vector<Point> path = straight(start + Point(0.001, 0.001), end + Point(0.001, 0.0));
+    steady.draw(path);
+    for (int i = 0; i < 3000; ++i) {  // 160 mm of flicker
+      path.push_back(path.back() + Point(i % 2 == 0 ? 55e-6 : -55e-6, 0.0));
+    }
+    flickering.draw(path);
+  }
+  const CharacterScore expected = steady.scores().front(), result = flickering.scores().front();
+  CHECK(expected.strokes_written == 2);
+  CHECK(result.match.remarks.empty());
+  CHECK(result.coverage == Approx(expected.coverage).margin(0.011));
+  CHECK(result.rms_error == Approx(expected.rms_error).epsilon(0.01));
+  CHECK(result.overall_error == Approx(expected.overall_error).epsilon(0.01));
+  CHECK(result.dtw_distance == Approx(expected.dtw_distance).epsilon(0.01));
+}
+
+TEST_CASE("a recording that ends with the pen on the paper has begun the stroke that comes next", "[practice]") {
+  for (const char* text : {"十", "三", "永"}) {
+    const PracticePage page = page_of(text);
+    const Character& character = page.characters[0].character;
+    for (int stroke = 0; stroke < character.stroke_count(); ++stroke) {
+      for (const double share : {0.1, 0.3, 0.6, 0.9}) {
+        CAPTURE(text, stroke, share);
+        Pen pen(page);
+        for (int i = 0; i < stroke; ++i) pen.draw(0, i);
+        pen.draw(0, stroke, {0.0015, -0.001});
+        Recording recording = pen.recording();
+        std::vector<RecordedSample>& samples = recording.samples;
+        const auto on_paper = [](const RecordedSample& each) { return each.state != InteractionState::separation; };
+        const auto last = std::find_if(samples.rbegin(), samples.rend(), on_paper);
+        const auto first = std::find_if_not(last, samples.rend(), on_paper);
+        const auto length = static_cast<double>(first - last);
+        samples.erase(last.base() - static_cast<std::ptrdiff_t>((1.0 - share) * length), samples.end());
+        const CharacterScore result = score_page(page, recording).front();
+        CHECK(result.strokes_written == stroke + 1);
+        CHECK(result.match.remarks.size() == static_cast<std::size_t>(character.stroke_count() - stroke - 1));
+        CHECK(result.strokes[static_cast<std::size_t>(stroke)].pen_down == stroke);
+        CHECK(result.strokes[static_cast<std::size_t>(stroke)].coverage == Approx(share).margin(0.06));
+        CHECK(result.max_error < 0.002);
+      }
+    }
+  }
+}
+
+TEST_CASE("strokes that were joined backwards each count in the sequence, by one remark", "[practice]") {
+  const PracticePage page = page_of("二");
+  const auto [left, right] = ends_of(page, 0, 0);
+  const auto [below, beside] = ends_of(page, 0, 1);
+  std::vector<Point> path;
+  for (const std::vector<Point>& next : {straight(beside, below), straight(below, right), straight(right, left)}) {
+    path.insert(path.end(), next.begin(), next.end());
+  }
+  Pen pen(page);
+  pen.draw(path);
+  const CharacterScore result = pen.scores().front();
+  CHECK(result.strokes_written == 2);
+  CHECK(result.direction_mistakes() == 1);
+  CHECK(result.internal_sequence == 0.0);
+}
+
+TEST_CASE("a step of the force from one character to the next is of neither", "[practice]") {
+  const PracticePage page = page_of("一二");
+  Recording recording;
+  for (int i = 0; i < 40; ++i) {
+    RecordedSample sample;
+    sample.time = 1e-3 * i;
+    sample.character = i / 20;
+    sample.force = {0.0, 0.0, i < 20 ? 0.5 : 2.0 + 0.1 * (i % 2)};
+    recording.samples.push_back(sample);
+  }
+  const std::vector<CharacterScore> scores = score_page(page, recording);
+  CHECK(scores[0].max_force_step == 0.0);
+  CHECK(scores[1].max_force_step == Approx(0.1));
+}
+
 TEST_CASE("nothing written has no error and no time, and is counted", "[practice]") {
   const PracticePage page = page_of("永");
   Pen pen(page);
@@ -417,6 +547,16 @@ TEST_CASE("a pen-down is the character's in whose square it lies, whichever the 
   CHECK(results[1].strokes_written == 1);
   CHECK(results[1].contour == Approx(0.2).epsilon(1e-3));
   CHECK(results[1].pen_downs.size() == 1);
+}
+
+TEST_CASE("pages whose strokes share points but not elements have different numbers", "[practice]") {
+  const std::vector<Point> points = {{0.1, 0.5}, {0.3, 0.95}, {0.6, 0.1}, {0.75, 0.9}, {0.9, 0.2}};
+  std::vector<std::uint32_t> ids;
+  for (const char* elements : {"LC", "CL"}) {
+    const StrokeInput input{11, points, {}, ElementList(elements)};
+    ids.push_back(page_id({0.1, 0.1, {{make_character(U'\u4e00', std::span(&input, 1)), {{0.01, 0.01}, 0.04}}}}));
+  }
+  CHECK(ids[0] != ids[1]);
 }
 
 TEST_CASE("the recording of another page is refused", "[practice]") {

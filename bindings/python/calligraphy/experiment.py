@@ -325,7 +325,7 @@ class Reduction(NamedTuple):
     half_width: float  #: of the 95 % confidence interval; NaN with fewer than two draws
     pairs: int  #: over which the mean is
     draws: int  #: independent ones
-    omitted: int  #: pairs that were not finished, or not measured, in both modes
+    omitted: int  #: other pairs: one was not finished or not measured, or vision is 0, as of a count of mistakes
 
 
 def reduction(table: Any, column: str = "rms_error", *, unfinished: bool = False) -> Reduction:
@@ -354,6 +354,7 @@ def reduction(table: Any, column: str = "rms_error", *, unfinished: bool = False
             raise cal.InvalidValue(f"the table has no trial with mode {mode!r}")
     both = [(rows["vision"][condition], row) for condition, row in rows["force"].items() if condition in rows["vision"]]
     pairs = np.array([pair for pair in both if usable[list(pair)].all()], dtype=int).reshape(-1, 2)
+    pairs = pairs[values[pairs[:, 0]] != 0.0]
     vision, force = values[pairs].T
     drawn = zip(np.asarray(columns["seed"])[pairs[:, 0]], np.asarray(columns["character"])[pairs[:, 0]])
     numbers: dict[Any, int] = {}

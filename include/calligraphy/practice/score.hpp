@@ -25,7 +25,8 @@ struct StrokeScore {
   double rms_error = not_measured;  ///< distance of the pen from the stroke, over the length of the pen's path [m]
   double max_error = not_measured;  ///< the largest distance of the pen from the stroke [m]
   /// `rms_error` with what was left out: the rest of the stroke, over its length, as far as it is from what was written
-  /// of it. Of a stroke that was not written, all of it, as far as it is from any ink of the character [m].
+  /// of it. Of a stroke that was not written, all of it, as far as it is from the strokes that were. What was left out
+  /// is never nearer than the `rms_error` of what was written: leaving out gains nothing [m].
   double overall_error = not_measured;
   double dtw_distance = not_measured;  ///< dtw_distance() of what was written of it from the stroke [m]
 };
@@ -46,7 +47,7 @@ struct CharacterScore {
   double rms_error = not_measured;  ///< of the strokes written: distance of the pen, over the length of its path [m]
   double max_error = not_measured;  ///< of the strokes written: the largest distance of the pen [m]
   /// `rms_error` with what was left out, of all strokes (StrokeScore::overall_error): a character that was broken off
-  /// does not gain by it. NaN if there is no ink [m].
+  /// does not gain by it. NaN if none was written [m].
   double overall_error = not_measured;
   double coverage = 0.0;      ///< share of the length of all strokes that was written in order [1]
   int stroke_count = 0;       ///< strokes of the character
