@@ -103,8 +103,9 @@ Json json_of(const Replayed& trace) {
 
 std::string table(const ReplayReport& report) {
   constexpr const char* head = "{:<8}{:>10}  {:<16}{:<14}{:<22}{:>11}{:>8}{:>8}{:>11}\n";
-  std::string text = fmt::format(fmt::runtime(head), "", "strokes", "", "", "", "completed", "", "peak F", "max step");
-  text += fmt::format(fmt::runtime(head), "", "drawn", "order", "direction", "other", "guided", "faults", "[N]",
+  std::string text =
+      fmt::format(fmt::runtime(head), "", "pen-downs", "", "", "", "completed", "", "peak F", "max step");
+  text += fmt::format(fmt::runtime(head), "", "/strokes", "order", "direction", "other", "guided", "faults", "[N]",
                       "[N/tick]");
   std::string remarks;
   for (const Replayed& trace : report.traces) {

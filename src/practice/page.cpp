@@ -85,7 +85,6 @@ std::uint32_t page_id(const PracticePage& page) {
     }
     for (const int id : placed.character.sequence.stroke_ids) add(id);
     for (const int feature : placed.character.sequence.feature_points) add(feature);
-    add(placed.character.curve_degree);
     for (const Point& point : placed.character.structure.control_points) {
       add(point.x() * micro_em);
       add(point.y() * micro_em);

@@ -12,8 +12,7 @@
 namespace calligraphy {
 namespace {
 
-constexpr double order_margin = 0.05;        // by which another stroke must fit better than the next one [em]
-constexpr double max_begun_distance = 0.15;  // mean distance up to which a path is the beginning of a stroke [em]
+constexpr double order_margin = 0.05;  // by which another stroke must fit better than the next one [em]
 
 /// Whether each stroke of the character was written.
 std::vector<bool> written_strokes(int stroke_count, const MatchResult& match) {
@@ -51,27 +50,24 @@ PenPath finish_last(const Character& character, std::span<const PenPath> paths, 
   const DrawnStroke as_it_is = match_strokes(character, paths, tolerances).drawn.back();
   if (as_it_is.continues || as_it_is.stroke_count > 1) return last;
   const MatchResult others = match_strokes(character, paths.first(paths.size() - 1), tolerances);
-  const std::vector<bool> written = written_strokes(character.stroke_count(), others);
-  const std::size_t next = next_stroke(written);
-  for (Point& point : last) point = others.fit(point);
+  const std::size_t next = next_stroke(written_strokes(character.stroke_count(), others));
   const double length = path_length(last);
   const Outline drawn = outline(last);
   double least = std::numeric_limits<double>::infinity();
   std::vector<Point> nearest;
-  for (std::size_t i = 0; i < written.size(); ++i) {
-    if (written[i]) continue;
-    std::vector<Point> line = middle_line(strokes(character)[i], {Point::Zero(), 1.0});
+  for (std::size_t i = 0; const Stroke& stroke : strokes(character)) {
+    std::vector<Point> line = middle_line(stroke, {Point::Zero(), 1.0});
     for (const bool backwards : {false, true}) {
       if (backwards) std::reverse(line.begin(), line.end());
-      const double distance = mean_distance(drawn, outline(line, std::min(length, path_length(line))));
-      const double cost = distance - (i == next && !backwards ? order_margin : 0.0);
-      if (distance > max_begun_distance || cost >= least) continue;
+      const double margin = i == next && !backwards ? order_margin : 0.0;
+      const double cost = mean_distance(drawn, outline(line, std::min(length, path_length(line)))) - margin;
+      if (cost >= least) continue;
       least = cost;
       nearest = line;
     }
+    ++i;
   }
-  if (!nearest.empty()) go_on(last, nearest, length);
-  for (Point& point : last) point = (point - others.fit.offset).cwiseQuotient(others.fit.scale);
+  go_on(last, nearest, length);
   return last;
 }
 

@@ -224,13 +224,13 @@ TEST_CASE("what was left out is never nearer than what was written", "[practice]
   const PracticePage page = page_of("十");
   const auto [start, end] = ends_of(page, 0, 0);
   const Point aside(0.0, 0.003);
-  Pen pen(page);  // the second stroke crosses the first, which is 3 mm off and has lost its last tenth
-  pen.draw(straight(start + aside, end - 0.1 * (end - start) + aside));
+  Pen pen(page);  // the first stroke comes nearer and lacks the end, the second crosses it
+  pen.draw(straight(start + 2.0 * aside, end - 0.2 * (end - start)));
   const CharacterScore result = pen.scores().front();
   CHECK(result.strokes_written == 1);
   CHECK(result.strokes[0].overall_error >= result.strokes[0].rms_error);
   CHECK(result.strokes[1].overall_error >= result.rms_error);
-  CHECK(result.overall_error > result.rms_error);
+  CHECK(result.overall_error >= result.rms_error);
 }
 
 TEST_CASE("ink that is no stroke is near none that was left out", "[practice]") {
@@ -275,32 +275,69 @@ TEST_CASE("a pen that rests adds nothing, however its sensor flickers", "[practi
   CHECK(result.dtw_distance == Approx(expected.dtw_distance).epsilon(0.01));
 }
 
+namespace {
+
+/// The recording up to this share of the last time on the paper.
+Recording cut_off(const Pen& pen, double share) {
+  Recording recording = pen.recording();
+  std::vector<RecordedSample>& samples = recording.samples;
+  const auto on_paper = [](const RecordedSample& each) { return each.state != InteractionState::separation; };
+  const auto last = std::find_if(samples.rbegin(), samples.rend(), on_paper);
+  const auto length = static_cast<double>(std::find_if_not(last, samples.rend(), on_paper) - last);
+  samples.erase(last.base() - static_cast<std::ptrdiff_t>((1.0 - share) * length), samples.end());
+  return recording;
+}
+
+}  // namespace
+
 TEST_CASE("a recording that ends with the pen on the paper has begun the stroke that comes next", "[practice]") {
+  const Point near(0.0015, -0.001), up(0.0, 0.004), down(0.0, -0.004), right(0.004, 0.0);
   for (const char* text : {"十", "三", "永"}) {
     const PracticePage page = page_of(text);
-    const Character& character = page.characters[0].character;
-    for (int stroke = 0; stroke < character.stroke_count(); ++stroke) {
-      for (const double share : {0.1, 0.3, 0.6, 0.9}) {
-        CAPTURE(text, stroke, share);
-        Pen pen(page);
-        for (int i = 0; i < stroke; ++i) pen.draw(0, i);
-        pen.draw(0, stroke, {0.0015, -0.001});
-        Recording recording = pen.recording();
-        std::vector<RecordedSample>& samples = recording.samples;
-        const auto on_paper = [](const RecordedSample& each) { return each.state != InteractionState::separation; };
-        const auto last = std::find_if(samples.rbegin(), samples.rend(), on_paper);
-        const auto first = std::find_if_not(last, samples.rend(), on_paper);
-        const auto length = static_cast<double>(first - last);
-        samples.erase(last.base() - static_cast<std::ptrdiff_t>((1.0 - share) * length), samples.end());
-        const CharacterScore result = score_page(page, recording).front();
-        CHECK(result.strokes_written == stroke + 1);
-        CHECK(result.match.remarks.size() == static_cast<std::size_t>(character.stroke_count() - stroke - 1));
-        CHECK(result.strokes[static_cast<std::size_t>(stroke)].pen_down == stroke);
-        CHECK(result.strokes[static_cast<std::size_t>(stroke)].coverage == Approx(share).margin(0.06));
-        CHECK(result.max_error < 0.002);
+    const int count = page.characters[0].character.stroke_count();
+    for (const Point& shift : {near, up, down, right}) {
+      for (int stroke = shift == near ? 0 : count - 1; stroke < count; ++stroke) {
+        for (const double share : {0.1, 0.3, 0.6, 0.9}) {
+          CAPTURE(text, stroke, share, shift.x(), shift.y());
+          Pen pen(page);
+          for (int i = 0; i <= stroke; ++i) pen.draw(0, i, shift);
+          const CharacterScore result = score_page(page, cut_off(pen, share)).front();
+          CHECK(result.strokes_written == stroke + 1);
+          CHECK(result.match.remarks.size() == static_cast<std::size_t>(count - stroke - 1));
+          CHECK(result.strokes[static_cast<std::size_t>(stroke)].pen_down == stroke);
+          CHECK(result.strokes[static_cast<std::size_t>(stroke)].coverage == Approx(share).margin(0.06));
+          CHECK(result.max_error < 0.009);
+        }
       }
     }
   }
+}
+
+TEST_CASE("a stroke that is cut off may be backwards or out of order or the rest of a broken one", "[practice]") {
+  const PracticePage ten = page_of("十"), three = page_of("三");
+  const auto [start, end] = ends_of(ten, 0, 0);
+  const auto scored = [](const Pen& pen, const PracticePage& page, double share) {
+    return score_page(page, cut_off(pen, share)).front();
+  };
+  Pen backwards(ten);
+  backwards.draw(straight(end, start));
+  CHECK(scored(backwards, ten, 0.3).direction_mistakes() == 1);
+
+  Pen out_of_order(three);
+  for (const int stroke : {0, 2}) out_of_order.draw(0, stroke);
+  CHECK(scored(out_of_order, three, 0.3).strokes[2].pen_down == 1);
+
+  Pen broken(ten);
+  broken.draw(straight(start, start + 0.45 * (end - start)));
+  broken.draw(straight(start + 0.5 * (end - start), end));
+  CHECK(scored(broken, ten, 0.9).match.count(StrokeRemarkKind::broken) == 1);
+
+  Pen lifted(ten);
+  const auto [top, bottom] = ends_of(ten, 0, 1);
+  lifted.draw(0, 0);
+  lifted.draw(straight(top, top + 0.1 * (bottom - top)));
+  CHECK(lifted.scores().front().strokes_written == 1);
+  CHECK(scored(lifted, ten, 1.0).strokes_written == 2);
 }
 
 TEST_CASE("strokes that were joined backwards each count in the sequence, by one remark", "[practice]") {
@@ -500,6 +537,15 @@ TEST_CASE("the error is over the way of the pen, however far apart its samples a
       CHECK(pen.scores().front().max_error == Approx(0.002).epsilon(1e-3));
     }
   }
+}
+
+TEST_CASE("the largest error of a character is that of its worst stroke", "[practice]") {
+  Pen pen(page_of("十"));
+  pen.draw(0, 0, {0.0, 0.002});
+  pen.draw(0, 1);
+  const CharacterScore result = pen.scores().front();
+  CHECK(result.max_error == result.strokes[0].max_error);
+  CHECK(result.max_error == Approx(0.002).epsilon(0.02));
 }
 
 TEST_CASE("the DTW distance of a stroke is from the stroke as it is to be written", "[practice]") {

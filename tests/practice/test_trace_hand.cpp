@@ -124,6 +124,21 @@ TEST_CASE("the pen-downs of a recording are its contacts, without bounces and re
   CHECK(paths[0].front().isApprox(Point(0.25, 0.25)));
 }
 
+TEST_CASE("a lift of exactly 50 ms is a bounce at any time", "[practice]") {
+  for (int start = 0; start < 300; ++start) {
+    Recording recording;
+    for (int i = 0; i < 100; ++i) {
+      RecordedSample sample;
+      sample.time = 1e-3 * (start + i);
+      sample.pen_tip = {0.06, 0.05, 0.0};
+      sample.state = 25 < i && i < 75 ? InteractionState::separation : InteractionState::writing;
+      recording.samples.push_back(sample);
+    }
+    CAPTURE(start);
+    CHECK(pen_paths(recording, {{0.05, 0.04}, 0.04}).size() == 1);
+  }
+}
+
 TEST_CASE("the bounding box of the writing is mapped onto that of the character", "[practice]") {
   const Character ten = page_of("十").characters.front().character;
   std::vector<PenPath> paths = copy_of(ten);

@@ -142,8 +142,10 @@ void add_practice(py::module_& module) {
         })(page, &device, options, progress);
       },
       "page"_a, "device"_a, "options"_a, "progress"_a = py::none(), "+ See write_page for progress.");
-  module.def("run_session", reporting(&run_session), "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
-             "+ motion(tick, seconds) takes a HapticTick and returns an Intention, or None to end.");
+  module.def(
+      "run_session", reporting(&run_session), "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
+      "+ motion(tick, seconds) takes a HapticTick and the period of a tick [s], and returns an Intention in page "
+      "coordinates, or None to end.");
 
   module.def("page_id", &page_id, "page"_a);
   module.def("score_page", released(&score_page), "page"_a, "recording"_a, "tolerances"_a = StrokeTolerances());

@@ -21,7 +21,8 @@ inline constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 struct StrokeScore {
   int pen_down = -1;       ///< the first one that wrote it, an index into MatchResult::drawn; -1: none
   bool completed = false;  ///< the session took it for finished
-  double coverage = 0.0;   ///< share of its length that was written in order; 0 if it was written backwards [1]
+  /// Share of its length that was written in order, wherever the writing lies; 0 if it was written backwards [1].
+  double coverage = 0.0;
   double rms_error = not_measured;  ///< distance of the pen from the stroke, over the length of the pen's path [m]
   double max_error = not_measured;  ///< the largest distance of the pen from the stroke [m]
   /// `rms_error` with what was left out: the rest of the stroke, over its length, as far as it is from what was written
@@ -51,13 +52,13 @@ struct CharacterScore {
   double overall_error = not_measured;
   double coverage = 0.0;      ///< share of the length of all strokes that was written in order [1]
   int stroke_count = 0;       ///< strokes of the character
-  int strokes_written = 0;    ///< of these, strokes that a pen-down wrote, wholly or in part: those of `rms_error`
+  int strokes_written = 0;    ///< of these, strokes that a pen-down wrote, or half of them: those of `rms_error`
   int strokes_completed = 0;  ///< of these, strokes that the session took for finished
   int lost_samples = 0;       ///< without a usable position (TickStatus), while the character was active: left out
   WritingMotion motion;       ///< of all pen-downs, in metres
   double dtw_distance = not_measured;  ///< mean of those of the strokes written [m]
-  /// Mean force across the paper while the pen is on it, over time: how hard the pen is pressed. NaN where no force was
-  /// rendered, as with vision alone [N].
+  /// Mean force across the paper over the samples with the pen on it: how hard the pen is pressed. NaN where no force
+  /// was rendered, as with vision alone [N].
   double mean_pressure = not_measured;
   double peak_force = 0.0;              ///< on the page, while the character was active (RecordedSample::force) [N]
   double max_force_step = 0.0;          ///< of that, from one tick to the next [N]
@@ -72,9 +73,9 @@ struct CharacterScore {
   double internal_sequence = 0.0;  ///< strokes not written backwards / all strokes
   double fidelity = 0.0;           ///< geometric mean of the three
 
-  /// Number of strokes written out of order.
+  /// Number of remarks on strokes written out of order; strokes that were joined have one.
   int order_mistakes() const noexcept { return match.count(StrokeRemarkKind::order); }
-  /// Number of strokes written backwards.
+  /// Number of remarks on strokes written backwards; strokes that were joined have one.
   int direction_mistakes() const noexcept { return match.count(StrokeRemarkKind::direction); }
 };
 
