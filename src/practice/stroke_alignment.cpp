@@ -20,7 +20,12 @@ constexpr double min_shift = 1e-3;  // of the line's length
 /// From which pair an optimal alignment came to this one.
 enum class Move : std::uint8_t { begin, both, path, line };
 
-Alignment align_in_place(std::span<const Point> path, std::span<const Point> line) {
+struct Placed {
+  Alignment alignment;
+  Point offset = Point::Zero();  ///< mean way from the path to the line
+};
+
+Placed align_in_place(std::span<const Point> path, std::span<const Point> line) {
   const double spacing = path_length(line) / static_cast<double>(line.size() - 1);
   const double length = path_length(path);
   const double pieces = spacing > 0.0 ? std::clamp(std::ceil(length / spacing), 1.0, max_path_points) : 1.0;
@@ -43,7 +48,8 @@ Alignment align_in_place(std::span<const Point> path, std::span<const Point> lin
     }
     above = cost;
   }
-  Alignment result;
+  Placed placed;
+  Alignment& result = placed.alignment;
   std::size_t i = rows - 1;
   auto j = static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
   const auto share = [columns](std::size_t column) {
@@ -51,49 +57,43 @@ Alignment align_in_place(std::span<const Point> path, std::span<const Point> lin
   };
   result.end = share(j);
   std::vector<double> places(rows);
+  double pairs = 0.0;
   for (Move move = moves[i * columns + j];; move = moves[i * columns + j]) {
     places[i] = share(j);
+    placed.offset += line[j] - pen[i];
+    ++pairs;
     if (move == Move::begin) break;
     if (move != Move::line) --i;
     if (move != Move::path) --j;
   }
   result.begin = share(j);
+  placed.offset /= pairs;
   // Of the path's own points, from those at even steps of its length.
   double way = 0.0;
   for (std::size_t k = 0; k < path.size(); ++k) {
     if (k > 0) way += (path[k] - path[k - 1]).norm();
     const double row = length > 0.0 ? way / length * pieces : 0.0;
-    result.places.push_back(places[std::min(static_cast<std::size_t>(row), rows - 1)]);
+    result.places.push_back(places[std::min(static_cast<std::size_t>(std::lround(row)), rows - 1)]);
   }
-  return result;
-}
-
-/// From the points of a path to where it lies along the line.
-Point mean_offset(std::span<const Point> path, const Alignment& alignment, std::span<const Point> line) {
-  Point sum = Point::Zero();
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const double column = alignment.places[i] * static_cast<double>(line.size() - 1);
-    sum += line[static_cast<std::size_t>(std::lround(column))] - path[i];
-  }
-  return sum / static_cast<double>(path.size());
+  return placed;
 }
 
 }  // namespace
 
 Alignment align(std::span<const Point> path, std::span<const Point> line) {
-  Alignment result = align_in_place(path, line);
+  Placed placed = align_in_place(path, line);
   std::vector<Point> moved(path.begin(), path.end());
   const double enough = min_shift * path_length(line);
   for (int i = 0; i < max_shifts; ++i) {
-    const bool begins = result.begin == 0.0, ends = result.end == 1.0;
+    const bool begins = placed.alignment.begin == 0.0, ends = placed.alignment.end == 1.0;
     if (begins && ends) break;
-    const Point shift = begins ? Point(line.front() - moved.front())
-                               : (ends ? Point(line.back() - moved.back()) : mean_offset(moved, result, line));
+    const Point shift =
+        begins ? Point(line.front() - moved.front()) : (ends ? Point(line.back() - moved.back()) : placed.offset);
     if (shift.norm() <= enough) break;
     for (Point& point : moved) point += shift;
-    result = align_in_place(moved, line);
+    placed = align_in_place(moved, line);
   }
-  return result;
+  return placed.alignment;
 }
 
 }  // namespace calligraphy

@@ -195,6 +195,17 @@ TEST_CASE("a stroke begun late is covered from there on", "[practice]") {
   CHECK(pen.scores().front().coverage == Approx(0.7).margin(0.011));
 }
 
+TEST_CASE("the middle of a stroke is covered where it was written", "[practice]") {
+  const PracticePage page = page_of("一");
+  const auto [start, end] = ends_of(page, 0, 0);
+  Pen pen(page);
+  pen.draw(straight(start + 0.3 * (end - start), start + 0.9 * (end - start)));
+  const CharacterScore result = pen.scores().front();
+  CHECK(result.coverage == Approx(0.6).margin(0.011));
+  const double length = (end - start).norm();  // left out: 0.3 of it on one side, 0.1 on the other
+  CHECK(result.overall_error == Approx(length * std::sqrt((0.027 + 0.001) / 3.0)).epsilon(0.02));
+}
+
 TEST_CASE("a stroke beside its place is covered whole", "[practice]") {
   const PracticePage page = page_of("一");
   Pen pen(page);
@@ -420,6 +431,7 @@ TEST_CASE("two strokes written in each other's place are one order mistake, and 
   CHECK(result.match.remarks[0].reason.find("stroke 4") != std::string::npos);
   CHECK(result.strokes_written == 5);
   CHECK(result.strokes_completed < 5);  // the session waited for stroke 4, and then for 5
+  CHECK(std::isnan(result.time));
   CHECK(result.rms_error < 1e-7);
   CHECK(result.coverage == Approx(1.0));
   CHECK(result.external_sequence == Approx(4.0 / 5.0));
@@ -469,6 +481,7 @@ TEST_CASE("a stroke broken in two is covered but for its gap, two joined are eac
   const CharacterScore in_two = broken.scores().front();
   CHECK(in_two.match.count(StrokeRemarkKind::broken) == 1);
   CHECK(in_two.strokes[0].coverage == Approx(0.9).margin(0.015));
+  CHECK(in_two.strokes[0].pen_down == 0);
   CHECK(in_two.strokes[1].coverage == Approx(1.0));
 
   const auto [down, up] = ends_of(page, 0, 1);
@@ -603,6 +616,48 @@ TEST_CASE("pages whose strokes share points but not elements have different numb
     ids.push_back(page_id({0.1, 0.1, {{make_character(U'\u4e00', std::span(&input, 1)), {{0.01, 0.01}, 0.04}}}}));
   }
   CHECK(ids[0] != ids[1]);
+}
+
+TEST_CASE("ink on a character that is finished is still that character's", "[practice]") {
+  Pen pen(page_of("一二"));
+  for (int i = 0; i < 2; ++i) pen.draw(0, 0);
+  const auto results = pen.scores();
+  CHECK(results[0].match.count(StrokeRemarkKind::extra) == 1);
+  CHECK(results[1].pen_downs.empty());
+}
+
+TEST_CASE("of characters in the same square, a pen-down belongs to the one that was active", "[practice]") {
+  PracticePage page = page_of("一");
+  page.characters.push_back(page.characters.front());
+  Pen pen(page);
+  for (int i = 0; i < 2; ++i) pen.draw(i, 0);
+  for (const CharacterScore& score : pen.scores()) CHECK(score.pen_downs.size() == 1);
+}
+
+TEST_CASE("a dot that was tapped is as far off as the tap", "[practice]") {
+  const PracticePage page = page_of("永");
+  const auto [start, end] = ends_of(page, 0, 0);
+  Pen pen(page);
+  const Point tap = 0.5 * (start + end) + Point(0.0, 0.002);
+  pen.draw(straight(tap, tap));
+  for (int stroke = 1; stroke < 5; ++stroke) pen.draw(0, stroke);
+  const StrokeScore dot = pen.scores().front().strokes[0];
+  REQUIRE(dot.pen_down == 0);
+  CHECK(dot.rms_error == dot.max_error);
+  CHECK(dot.rms_error > 0.001);
+  CHECK(dot.coverage < 0.1);
+}
+
+TEST_CASE("parts of a stroke that overlap are covered once", "[practice]") {
+  const PracticePage page = page_of("十");
+  const auto [start, end] = ends_of(page, 0, 0);
+  Pen pen(page);
+  pen.draw(straight(start, start + 0.6 * (end - start)));
+  pen.draw(straight(start + 0.5 * (end - start), start + 0.95 * (end - start)));
+  pen.draw(0, 1);
+  const CharacterScore result = pen.scores().front();
+  REQUIRE(result.match.count(StrokeRemarkKind::broken) == 1);
+  CHECK(result.strokes[0].coverage == Approx(0.95).margin(0.02));
 }
 
 TEST_CASE("the recording of another page is refused", "[practice]") {
