@@ -618,6 +618,19 @@ TEST_CASE("pages whose strokes share points but not elements have different numb
   CHECK(ids[0] != ids[1]);
 }
 
+TEST_CASE("the number of a page tells what is on it, to a micrometre", "[practice]") {
+  const PracticePage page = page_of("永");
+  std::vector<PracticePage> others(4, page);
+  others[0].characters[0].character.code = U'北';
+  others[1].characters[0].character.sequence.stroke_ids[1] += 1;
+  others[2].characters[0].character.structure.control_points[3].x() += 5e-5;
+  others[3].characters[0].character.structure.control_points[3].y() += 5e-5;
+  for (const PracticePage& other : others) CHECK(page_id(other) != page_id(page));
+  PracticePage rounded = page;
+  for (Point& point : rounded.characters[0].character.structure.control_points) point *= 1.0 + 1e-9;
+  CHECK(page_id(rounded) == page_id(page));
+}
+
 TEST_CASE("ink on a character that is finished is still that character's", "[practice]") {
   Pen pen(page_of("一二"));
   for (int i = 0; i < 2; ++i) pen.draw(0, 0);
@@ -686,9 +699,52 @@ TEST_CASE("the recording of another page is refused", "[practice]") {
   back_in_time.samples[9].time = 0.001;
   CHECK_THROWS_WITH(score_page(page, back_in_time),
                     "the recording's sample 9: time 0.001 s is before that of a sample before it, 0.008 s");
-  recording.samples[7].stroke = -1;
-  CHECK_THROWS_WITH(score_page(page, recording),
-                    "the recording is of another page: sample 7: stroke -1, expected 0 to 5");
+  Recording wrong = recording;
+  wrong.samples[7].stroke = -1;
+  CHECK_THROWS_WITH(score_page(page, wrong), "the recording is of another page: sample 7: stroke -1, expected 0 to 5");
+  wrong = recording;
+  wrong.samples[7].character = 2;
+  CHECK_THROWS_WITH(score_page(page, wrong),
+                    "the recording is of another page: sample 7: character 2, expected 0 to 1");
+  wrong = recording;
+  wrong.samples[7].events = wrong.samples[7].events | TickEvent::stroke_finished;
+  CHECK_THROWS_WITH(score_page(page, wrong),
+                    "the recording is of another page: sample 7: finished stroke -1, expected 0 to 5");
+}
+
+TEST_CASE("a recording is of the page on which half of its strokes were finished", "[practice]") {
+  const PracticePage page = page_of("永");
+  for (const int elsewhere : {2, 3}) {
+    Recording recording = write_page(page, session(WriterSkill::skilled(), FeedbackMode::force));
+    recording.page = 0;
+    int moved = 0;
+    for (RecordedSample& sample : recording.samples) {
+      if (!has_event(sample.events, TickEvent::stroke_finished) || ++moved > elsewhere) continue;
+      sample.pen_tip.x() += 0.04;
+    }
+    CAPTURE(elsewhere);
+    if (elsewhere == 2) {
+      CHECK(score_page(page, recording).size() == 1);
+    } else {
+      CHECK_THROWS_AS(score_page(page, recording), ValueError);
+    }
+  }
+}
+
+TEST_CASE("a force that pulls the pen into the paper is no pressure", "[practice]") {
+  const PracticePage page = page_of("一");
+  const auto [start, end] = ends_of(page, 0, 0);
+  Recording recording;
+  for (int i = 0; i < 100; ++i) {
+    RecordedSample sample;
+    sample.time = 1e-3 * i;
+    const Point tip = start + (end - start) * i / 99.0;
+    sample.pen_tip = {tip.x(), tip.y(), 0.0};
+    sample.state = InteractionState::writing;
+    sample.force = {0.0, 0.0, i % 2 == 0 ? 1.0 : -1.0};
+    recording.samples.push_back(sample);
+  }
+  CHECK(score_page(page, recording).front().mean_pressure == Approx(0.5));
 }
 
 TEST_CASE("a page that the renderer would refuse is refused by its score", "[practice]") {
