@@ -13,12 +13,13 @@
 #include "recorded_page.hpp"
 #include "resemblance.hpp"
 #include "stroke_alignment.hpp"
-#include "unfinished_stroke.hpp"
+#include "unfinished_character.hpp"
 
 namespace calligraphy {
 namespace {
 
 constexpr double contour_tolerance = 0.05;  // error at which the contour score has fallen to 1/e [em]
+constexpr double sensor_noise = 1e-4;       // the points of a pen that rests are nearer to each other [m]
 constexpr std::size_t line_points = 101;    // of a stroke: its coverage is told to 1 %
 
 /// Sums an error along a path.
@@ -135,14 +136,18 @@ class CharacterScorer {
     result_.stroke_count = placed.character.stroke_count();
     result_.strokes.resize(templates_.size());
     std::vector<PenPath> paths;
+    const double spacing =
+        std::max(pen_spacing, std::min(sensor_noise / placement_.em, 4.0 * pen_spacing)) * placement_.em;
     for (const PenDown* down : downs_) {
-      paths_.push_back(without_jitter(points_of(down->samples), pen_spacing * placement_.em));
+      paths_.push_back(without_jitter(points_of(down->samples), spacing));
       PenPath& path = paths.emplace_back();
       for (const Point& point : paths_.back()) path.push_back((point - placement_.origin) / placement_.em);
       result_.pen_downs.push_back({pen_kinematics(down->samples), mean_pressure({&down, 1})});
     }
-    if (!downs_.empty() && !downs_.back()->lifted) paths.back() = finish_last(placed.character, paths, tolerances);
-    result_.match = match_strokes(placed.character, paths, tolerances);
+    const bool is_lifted = downs_.empty() || downs_.back()->lifted;
+    const bool is_finished = paths.empty() || (is_lifted && paths.size() >= templates_.size());
+    result_.match = is_finished ? match_strokes(placed.character, paths, tolerances)
+                                : match_unfinished(placed.character, paths, is_lifted, tolerances);
   }
 
   CharacterScore run() {

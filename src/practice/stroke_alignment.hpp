@@ -16,9 +16,9 @@ struct Alignment {
 
 /// Aligns all of a path with the part of a line that it follows at the least mean distance, in order: subsequence
 /// dynamic time warping (Müller, Information Retrieval for Music and Motion, 2007, sec. 4.4) of points at even steps.
-/// A displaced path is not a shorter one: until it reaches both ends of the line, it is moved, by its mean offset or,
-/// where it reaches one end, so that its own end is there, and aligned again. The line has at least two points, and the
-/// path one.
+/// A displaced or slanted path is not a shorter one: until it reaches both ends of the line, it is turned and moved
+/// onto it, or where it reaches one end, moved so that its own end is there, and aligned again. It is turned by up to
+/// 20 degrees. The line has at least two points, and the path one.
 Alignment align(std::span<const Point> path, std::span<const Point> line);
 
 }  // namespace calligraphy

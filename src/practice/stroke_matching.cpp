@@ -549,8 +549,7 @@ class Judge {
     const std::vector<bool> done = written(best_.matches);
     for (std::size_t stroke = 0; stroke < strokes_.size(); ++stroke) {
       if (done[stroke]) continue;
-      result_.remarks.push_back(
-          {StrokeRemarkKind::missing, -1, static_cast<int>(stroke), stroke_label(stroke) + " was not written"});
+      result_.remarks.push_back(missing_remark(static_cast<int>(stroke), *strokes_[stroke].type));
     }
   }
 

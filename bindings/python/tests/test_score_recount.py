@@ -334,7 +334,7 @@ class Session:
             samples, labels, shares = samples[begin:], labels[begin:], shares[begin:]
         if "unfinished" in self.faults:
             last = np.flatnonzero(labels == labels.max())
-            end = last[int(rng.uniform(0.05, 0.9) * len(last))]
+            end = last[int(rng.uniform(0.2, 0.9) * len(last))]
             samples, labels, shares = samples[:end], labels[:end], shares[:end]
         self.recording = cal.Recording(RATE, samples, page=cal.page_id(self.page))
         self.labels, self.shares = labels, shares

@@ -27,7 +27,7 @@ struct StrokeScore {
   double max_error = not_measured;  ///< the largest distance of the pen from the stroke [m]
   /// `rms_error` with what was left out: the rest of the stroke, over its length, as far as it is from what was written
   /// of it. Of a stroke that was not written, all of it, as far as it is from the strokes that were. What was left out
-  /// is never nearer than the `rms_error` of what was written: leaving out gains nothing [m].
+  /// of a stroke is never nearer than the `rms_error` of what was written of it [m].
   double overall_error = not_measured;
   double dtw_distance = not_measured;  ///< dtw_distance() of what was written of it from the stroke [m]
 };
