@@ -350,7 +350,7 @@ TEST_CASE("a recording that ends with the pen on the paper has begun the stroke 
       for (int stroke = shift == near ? 0 : count - 1; stroke < count; ++stroke) {
         for (const double share : {0.2, 0.4, 0.6, 0.9}) {
           CAPTURE(text, stroke, share, shift.x(), shift.y());
-          Pen pen(page);
+          Pen pen(page, 3e-4);
           for (int i = 0; i <= stroke; ++i) pen.draw(0, i, shift);
           const CharacterScore result = score_page(page, cut_off(pen, share)).front();
           CHECK(result.strokes_written == stroke + 1);
