@@ -225,7 +225,7 @@ TEST_CASE("an omitted stroke is missing, not an order mistake", "[practice]") {
 }
 
 TEST_CASE("a pen that rests at the end of each stroke is matched as one that lifts", "[practice]") {
-  const Character character = page_of("永").characters.front().character;
+  const Character& character = built_in_characters().at(U'永');
   std::vector<PenPath> paths = copy_of(character);
   for (PenPath& path : paths) {
     for (int i = 0; i < 3000; ++i) path.push_back(path.back() + Point(0.0, i % 2 == 0 ? 1e-3 : -1e-3));
