@@ -13,38 +13,18 @@ namespace {
 
 // What a remark costs [em]. A pen-down that is nothing because a stroke was supposed in its place is absurd.
 constexpr double extra_cost = 10.0, missing_cost = 0.05, otherwise_cost = 0.05;
-constexpr double order_margin = 0.05;  // by which another stroke must fit better than the next one [em]
 
 using Lines = std::vector<PenPath>;
 
-/// The rest of a line behind the first `length` of it, moved to where a path ended.
-void go_on(PenPath& path, const PenPath& line, double length) {
-  const Point shift = path.back() - outline(line, length).back();
-  double reached = 0.0;
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    reached += (line[i] - line[i - 1]).norm();
-    if (reached > length) path.push_back(line[i] + shift);
-  }
-}
-
-/// A path with the rest of the stroke that it has begun, if it was to be `next`.
-PenPath finished(PenPath path, const Lines& lines, std::size_t next) {
+/// A path with the rest of the stroke that it has begun, moved to where the path ends.
+PenPath finished(PenPath path, const PenPath& stroke) {
   const double length = path_length(path);
-  const Outline drawn = outline(path);
-  double least = std::numeric_limits<double>::infinity();
-  PenPath nearest;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    PenPath line = lines[i];
-    for (const bool backwards : {false, true}) {
-      if (backwards) std::reverse(line.begin(), line.end());
-      const double margin = i == next && !backwards ? order_margin : 0.0;
-      const double cost = mean_distance(drawn, outline(line, std::min(length, path_length(line)))) - margin;
-      if (cost >= least) continue;
-      least = cost;
-      nearest = line;
-    }
+  const Point shift = path.back() - outline(stroke, std::min(length, path_length(stroke))).back();
+  double reached = 0.0;
+  for (std::size_t i = 1; i < stroke.size(); ++i) {
+    reached += (stroke[i] - stroke[i - 1]).norm();
+    if (reached > length) path.push_back(stroke[i] + shift);
   }
-  go_on(path, nearest, length);
   return path;
 }
 
@@ -91,7 +71,7 @@ MatchResult match_unfinished(const Character& character, std::span<const PenPath
     for (const bool as_it_is : {false, true}) {
       if (!as_it_is && (!goes_on || count == 0)) continue;
       Lines supposed(paths.begin(), paths.end());
-      if (!as_it_is) supposed.back() = finished(supposed.back(), lines, count - 1);
+      if (!as_it_is) supposed.back() = finished(supposed.back(), lines[count - 1]);
       supposed.insert(supposed.end(), lines.begin() + static_cast<std::ptrdiff_t>(count), lines.end());
       MatchResult result = match_strokes(character, supposed, tolerances);
       const double doubt = cost(result, paths.size());
