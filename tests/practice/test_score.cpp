@@ -276,12 +276,12 @@ TEST_CASE("what was left out is never nearer than what was written", "[practice]
   const auto [start, end] = ends_of(page, 0, 0);
   const Point aside(0.0, 0.003);
   Pen pen(page);  // the first stroke comes nearer and lacks the end, the second crosses it
-  pen.draw(straight(start + 2.0 * aside, end - 0.2 * (end - start)));
+  pen.draw(straight(start + 2.0 * aside, end - 0.1 * (end - start)));
   const CharacterScore result = pen.scores().front();
   CHECK(result.strokes_written == 1);
-  CHECK(result.strokes[0].overall_error >= result.strokes[0].rms_error);
-  CHECK(result.strokes[1].overall_error >= result.rms_error);
-  CHECK(result.overall_error >= result.rms_error);
+  CHECK(result.strokes[0].overall_error >= (1.0 - 1e-9) * result.strokes[0].rms_error);
+  CHECK(result.strokes[1].overall_error >= (1.0 - 1e-9) * result.rms_error);
+  CHECK(result.overall_error >= (1.0 - 1e-9) * result.rms_error);
 }
 
 TEST_CASE("ink that is no stroke is near none that was left out", "[practice]") {
@@ -305,25 +305,28 @@ TEST_CASE("ink that is no stroke is near none that was left out", "[practice]") 
   CHECK(scribbled.scores().front().overall_error == Approx(clean.scores().front().overall_error).epsilon(0.01));
 }
 
-TEST_CASE("a pen that rests adds nothing, however its sensor flickers", "[practice]") {
-  const PracticePage page = page_of("十");
-  Pen steady(page), flickering(page);
-  for (int stroke = 0; stroke < 2; ++stroke) {
-    const auto [start, end] = ends_of(page, 0, stroke);
-    std::vector<Point> path = straight(start + Point(0.001, 0.001), end + Point(0.001, 0.0));
-    steady.draw(path);
-    for (int i = 0; i < 3000; ++i) {  // 160 mm of flicker
-      path.push_back(path.back() + Point(i % 2 == 0 ? 55e-6 : -55e-6, 0.0));
+TEST_CASE("a pen that rests adds no error, however its sensor flickers", "[practice]") {
+  for (const double em : {0.04, 0.01}) {
+    CAPTURE(em);
+    const PracticePage page = lay_out(std::span(&built_in_characters().at(U'十'), 1), {0.16, 0.12, em, 0.008}).front();
+    Pen steady(page), flickering(page);
+    for (int stroke = 0; stroke < 2; ++stroke) {
+      const auto [start, end] = ends_of(page, 0, stroke);
+      std::vector<Point> path = straight(start + 0.025 * em * Point(1.0, 1.0), end + 0.025 * em * Point(1.0, 0.0));
+      steady.draw(path);
+      for (int i = 0; i < 3000; ++i) {  // 160 mm of flicker
+        path.push_back(path.back() + Point(i % 2 == 0 ? 55e-6 : -55e-6, 0.0));
+      }
+      flickering.draw(path);
     }
-    flickering.draw(path);
+    const CharacterScore expected = steady.scores().front(), result = flickering.scores().front();
+    CHECK(expected.strokes_written == 2);
+    CHECK(result.match.remarks.empty());
+    CHECK(result.coverage == Approx(expected.coverage).margin(0.011));
+    CHECK(result.rms_error == Approx(expected.rms_error).epsilon(0.02));
+    CHECK(result.overall_error == Approx(expected.overall_error).epsilon(0.02));
+    CHECK(result.dtw_distance == Approx(expected.dtw_distance).epsilon(0.05));
   }
-  const CharacterScore expected = steady.scores().front(), result = flickering.scores().front();
-  CHECK(expected.strokes_written == 2);
-  CHECK(result.match.remarks.empty());
-  CHECK(result.coverage == Approx(expected.coverage).margin(0.011));
-  CHECK(result.rms_error == Approx(expected.rms_error).epsilon(0.01));
-  CHECK(result.overall_error == Approx(expected.overall_error).epsilon(0.01));
-  CHECK(result.dtw_distance == Approx(expected.dtw_distance).epsilon(0.01));
 }
 
 namespace {
@@ -383,12 +386,14 @@ TEST_CASE("a stroke that is cut off may be backwards or out of order or the rest
   broken.draw(straight(start + 0.5 * (end - start), end));
   CHECK(scored(broken, ten, 0.9).match.count(StrokeRemarkKind::broken) == 1);
 
-  Pen lifted(ten);
-  const auto [top, bottom] = ends_of(ten, 0, 1);
-  lifted.draw(0, 0);
+  const PracticePage eternal = page_of("永");
+  Pen lifted(eternal);
+  const auto [top, bottom] = ends_of(eternal, 0, 4);
+  for (int stroke = 0; stroke < 3; ++stroke) lifted.draw(0, stroke);
   lifted.draw(straight(top, top + 0.1 * (bottom - top)));
-  CHECK(lifted.scores().front().strokes_written == 1);
-  CHECK(scored(lifted, ten, 1.0).strokes_written == 2);
+  CHECK(lifted.scores().front().strokes[4].pen_down == -1);
+  CHECK(scored(lifted, eternal, 1.0).strokes[4].pen_down == 3);
+  CHECK(scored(lifted, eternal, 0.3).strokes[4].pen_down == -1);  // a tap
 }
 
 TEST_CASE("strokes that were joined backwards each count in the sequence, by one remark", "[practice]") {
