@@ -144,10 +144,9 @@ class CharacterScorer {
       for (const Point& point : paths_.back()) path.push_back((point - placement_.origin) / placement_.em);
       result_.pen_downs.push_back({pen_kinematics(down->samples), mean_pressure({&down, 1})});
     }
-    const bool is_lifted = downs_.empty() || downs_.back()->lifted;
-    const bool is_finished = paths.empty() || (is_lifted && paths.size() >= templates_.size());
+    const bool is_finished = paths.empty() || (downs_.back()->lifted && paths.size() >= templates_.size());
     result_.match = is_finished ? match_strokes(placed.character, paths, tolerances)
-                                : match_unfinished(placed.character, paths, is_lifted, tolerances);
+                                : match_unfinished(placed.character, paths, tolerances);
   }
 
   CharacterScore run() {

@@ -11,10 +11,9 @@
 namespace calligraphy {
 namespace {
 
-// What a remark costs [em]. A pen-down that is nothing because a stroke was supposed in its place is absurd.
-constexpr double extra_cost = 10.0, missing_cost = 0.05, otherwise_cost = 0.05;
-
-using Lines = std::vector<PenPath>;
+// What a remark costs [em]: of a pen-down that wrote nothing more, the further it is from any stroke.
+constexpr double missing_cost = 0.05, otherwise_cost = 0.05, attempt_cost = 0.05, max_extra_cost = 0.2;
+constexpr double absurd_cost = 10.0;  // of a pen-down that wrote nothing because its stroke was supposed
 
 /// A path with the rest of the stroke that it has begun, moved to where the path ends.
 PenPath finished(PenPath path, const PenPath& stroke) {
@@ -28,14 +27,50 @@ PenPath finished(PenPath path, const PenPath& stroke) {
   return path;
 }
 
-/// What is to be remarked, and how far the first `count` paths are from their strokes, as a distance [em].
-double cost(const MatchResult& result, std::size_t count) {
+bool writes(const DrawnStroke& drawn, std::size_t stroke) {
+  const auto index = static_cast<int>(stroke);
+  return drawn.stroke <= index && index < drawn.stroke + drawn.stroke_count;
+}
+
+bool is_written(const MatchResult& match, std::size_t stroke) {
+  return std::any_of(match.drawn.begin(), match.drawn.end(),
+                     [stroke](const auto& each) { return writes(each, stroke); });
+}
+
+/// Of a path that wrote nothing: how far it is from the beginning of a stroke, forwards or backwards, as an attempt at
+/// it. Absurd if that is one of those that were only supposed, from `count` on.
+double extra_cost(const PenPath& path, const std::vector<PenPath>& lines, std::size_t count) {
+  const double length = path_length(path);
+  const Outline drawn = outline(path);
+  double least = max_extra_cost - attempt_cost;
+  bool is_supposed = false;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const PenPath back(lines[i].rbegin(), lines[i].rend());
+    for (const PenPath& line : {lines[i], back}) {
+      const double distance = mean_distance(drawn, outline(line, std::min(length, path_length(line))));
+      if (distance >= least) continue;
+      least = distance;
+      is_supposed = i >= count;
+    }
+  }
+  return is_supposed ? absurd_cost : attempt_cost + least;
+}
+
+/// What is to be remarked, and how far the paths are from their strokes, as a distance [em].
+double cost(const MatchResult& result, std::span<const PenPath> paths, const std::vector<PenPath>& lines,
+            std::size_t count) {
   double sum = 0.0;
   for (const StrokeRemark& remark : result.remarks) {
-    const bool is_extra = remark.kind == StrokeRemarkKind::extra, is_missing = remark.kind == StrokeRemarkKind::missing;
-    sum += is_extra ? extra_cost : (is_missing ? missing_cost : otherwise_cost);
+    const auto path = static_cast<std::size_t>(remark.path);
+    if (remark.kind == StrokeRemarkKind::missing) {
+      sum += missing_cost;
+    } else if (remark.kind == StrokeRemarkKind::extra && path < paths.size()) {
+      sum += extra_cost(paths[path], lines, count);
+    } else {
+      sum += remark.kind == StrokeRemarkKind::extra ? absurd_cost : otherwise_cost;
+    }
   }
-  for (std::size_t path = 0; path < count; ++path) sum += result.drawn[path].distance;
+  for (std::size_t path = 0; path < paths.size(); ++path) sum += result.drawn[path].distance;
   return sum;
 }
 
@@ -46,42 +81,65 @@ void take_back(MatchResult& result, std::size_t count, const Character& characte
     return remark.path >= static_cast<int>(count) || remark.kind == StrokeRemarkKind::missing;
   });
   for (std::size_t i = 0; const Stroke& stroke : strokes(character)) {
-    const int index = static_cast<int>(i++);
-    const bool written = std::any_of(result.drawn.begin(), result.drawn.end(), [index](const DrawnStroke& drawn) {
-      return drawn.stroke <= index && index < drawn.stroke + drawn.stroke_count;
-    });
-    if (!written) result.remarks.push_back(missing_remark(index, *stroke.type));
+    if (!is_written(result, i)) result.remarks.push_back(missing_remark(static_cast<int>(i), *stroke.type));
+    ++i;
   }
 }
 
+/// Of the ways to suppose the rest of a character, keeps the one that leaves the least to remark.
+class Supposition {
+ public:
+  Supposition(const Character& character, std::span<const PenPath> paths, const StrokeTolerances& tolerances)
+      : character_(character), paths_(paths), tolerances_(tolerances) {
+    for (const Stroke& stroke : strokes(character)) lines_.push_back(middle_line(stroke, {Point::Zero(), 1.0}));
+  }
+
+  /// @param others what the other paths wrote, of a last path that may go on; null: it does not
+  MatchResult match(const MatchResult* others) {
+    for (std::size_t count = 0; count <= lines_.size(); ++count) {
+      if (others != nullptr && count > 0 && !is_written(*others, count - 1)) {
+        PenPath stroke = lines_[count - 1];
+        suppose(count, finished(paths_.back(), stroke));
+        std::reverse(stroke.begin(), stroke.end());
+        suppose(count, finished(paths_.back(), stroke));
+      }
+      suppose(count, paths_.back());
+    }
+    take_back(best_, paths_.size(), character_);
+    return std::move(best_);
+  }
+
+ private:
+  /// That the strokes from `count` on are still to come, and that this is all of the last path.
+  void suppose(std::size_t count, const PenPath& last) {
+    std::vector<PenPath> supposed(paths_.begin(), paths_.end());
+    supposed.back() = last;
+    supposed.insert(supposed.end(), lines_.begin() + static_cast<std::ptrdiff_t>(count), lines_.end());
+    MatchResult result = match_strokes(character_, supposed, tolerances_);
+    const double doubt = cost(result, paths_, lines_, count);
+    if (doubt >= least_) return;
+    least_ = doubt;
+    best_ = std::move(result);
+  }
+
+  const Character& character_;
+  const std::span<const PenPath> paths_;
+  const StrokeTolerances& tolerances_;
+  std::vector<PenPath> lines_;
+  MatchResult best_;
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
 }  // namespace
 
-MatchResult match_unfinished(const Character& character, std::span<const PenPath> paths, bool is_lifted,
+MatchResult match_unfinished(const Character& character, std::span<const PenPath> paths,
                              const StrokeTolerances& tolerances) {
-  Lines lines;
-  for (const Stroke& stroke : strokes(character)) lines.push_back(middle_line(stroke, {Point::Zero(), 1.0}));
-  const bool goes_on = !is_lifted && path_length(paths.back()) >= tap_length;
-  std::vector<std::size_t> begun = {std::min(paths.size(), lines.size())};  // the likeliest number of strokes first
-  for (std::size_t i = 0; i <= lines.size(); ++i) {
-    if (i != begun.front()) begun.push_back(i);
+  if (path_length(paths.back()) < tap_length) return Supposition(character, paths, tolerances).match(nullptr);
+  MatchResult others;
+  if (paths.size() > 1) {
+    others = Supposition(character, paths.first(paths.size() - 1), tolerances).match(nullptr);
   }
-  MatchResult best;
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::size_t count : begun) {
-    for (const bool as_it_is : {false, true}) {
-      if (!as_it_is && (!goes_on || count == 0)) continue;
-      Lines supposed(paths.begin(), paths.end());
-      if (!as_it_is) supposed.back() = finished(supposed.back(), lines[count - 1]);
-      supposed.insert(supposed.end(), lines.begin() + static_cast<std::ptrdiff_t>(count), lines.end());
-      MatchResult result = match_strokes(character, supposed, tolerances);
-      const double doubt = cost(result, paths.size());
-      if (doubt >= least) continue;
-      least = doubt;
-      best = std::move(result);
-    }
-  }
-  take_back(best, paths.size(), character);
-  return best;
+  return Supposition(character, paths, tolerances).match(&others);
 }
 
 }  // namespace calligraphy

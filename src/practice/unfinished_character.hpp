@@ -8,10 +8,10 @@
 namespace calligraphy {
 
 /// match_strokes() of paths that lie where they were written on the page [em], as though the writer had gone on to
-/// write the other strokes in their places: few strokes by themselves resemble too many others elsewhere. How many
-/// strokes were begun is what leaves the least to remark; a last path that was not lifted may go on along the last of
-/// them.
-MatchResult match_unfinished(const Character& character, std::span<const PenPath> paths, bool is_lifted,
+/// write the other strokes in their places: few strokes by themselves resemble too many others elsewhere. Of the ways
+/// to suppose this, the one that leaves the least to remark counts; the last path may go on along a stroke that no
+/// other path wrote. There is at least one path.
+MatchResult match_unfinished(const Character& character, std::span<const PenPath> paths,
                              const StrokeTolerances& tolerances);
 
 }  // namespace calligraphy

@@ -387,13 +387,35 @@ TEST_CASE("a stroke that is cut off may be backwards or out of order or the rest
   CHECK(scored(broken, ten, 0.9).match.count(StrokeRemarkKind::broken) == 1);
 
   const PracticePage eternal = page_of("永");
-  Pen lifted(eternal);
   const auto [top, bottom] = ends_of(eternal, 0, 4);
-  for (int stroke = 0; stroke < 3; ++stroke) lifted.draw(0, stroke);
-  lifted.draw(straight(top, top + 0.1 * (bottom - top)));
-  CHECK(lifted.scores().front().strokes[4].pen_down == -1);
-  CHECK(scored(lifted, eternal, 1.0).strokes[4].pen_down == 3);
-  CHECK(scored(lifted, eternal, 0.3).strokes[4].pen_down == -1);  // a tap
+  Pen begun(eternal), again(eternal);
+  for (int stroke = 0; stroke < 3; ++stroke) begun.draw(0, stroke);
+  begun.draw(straight(top, top + 0.2 * (bottom - top)));
+  CHECK(begun.scores().front().strokes[4].pen_down == 3);  // lifted or not
+  CHECK(scored(begun, eternal, 1.0).strokes[4].pen_down == 3);
+  CHECK(scored(begun, eternal, 0.1).strokes[4].pen_down == -1);  // a tap
+  for (int stroke = 0; stroke < 5; ++stroke) again.draw(0, stroke, {0.0, 0.001});
+  again.draw(straight(top, top + 0.2 * (bottom - top)));
+  CHECK(scored(again, eternal, 1.0).match.drawn.back().stroke == -1);
+  CHECK(scored(again, eternal, 1.0).strokes_written == 5);
+}
+
+TEST_CASE("an attempt that was repeated is extra, in a character that was broken off too", "[practice]") {
+  for (const char* text : {"之", "山", "天"}) {
+    CAPTURE(text);
+    const PracticePage page = page_of(text);
+    const auto [start, end] = ends_of(page, 0, 0);
+    Pen half(page), backwards(page);
+    half.draw(straight(start, start + 0.5 * (end - start)));
+    backwards.draw(0, 0, Point::Zero(), true);
+    for (Pen* pen : {&half, &backwards}) {
+      pen->draw(0, 0);
+      const CharacterScore result = pen->scores().front();
+      CHECK(result.strokes[0].pen_down == 1);
+      CHECK(result.match.count(StrokeRemarkKind::extra) == 1);
+      CHECK(result.strokes_written == 1);
+    }
+  }
 }
 
 TEST_CASE("strokes that were joined backwards each count in the sequence, by one remark", "[practice]") {
