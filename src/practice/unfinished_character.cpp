@@ -11,9 +11,12 @@
 namespace calligraphy {
 namespace {
 
-// What a remark costs [em]: of a pen-down that wrote nothing more, the further it is from any stroke.
-constexpr double missing_cost = 0.05, otherwise_cost = 0.05, attempt_cost = 0.05, max_extra_cost = 0.2;
-constexpr double absurd_cost = 10.0;  // of a pen-down that wrote nothing because its stroke was supposed
+// What there is to remark, as a distance [em]:
+constexpr double missing_cost = 0.05;
+constexpr double attempt_cost = 0.05;   // of an extra pen-down, beside its distance from a stroke
+constexpr double max_extra_cost = 0.2;  // of one that is far from all strokes
+constexpr double absurd_cost = 10.0;    // of one that is extra because its stroke was supposed
+constexpr double other_cost = 0.05;
 
 /// A path with the rest of the stroke that it has begun, moved to where the path ends.
 PenPath finished(PenPath path, const PenPath& stroke) {
@@ -27,14 +30,11 @@ PenPath finished(PenPath path, const PenPath& stroke) {
   return path;
 }
 
-bool writes(const DrawnStroke& drawn, std::size_t stroke) {
-  const auto index = static_cast<int>(stroke);
-  return drawn.stroke <= index && index < drawn.stroke + drawn.stroke_count;
-}
-
 bool is_written(const MatchResult& match, std::size_t stroke) {
-  return std::any_of(match.drawn.begin(), match.drawn.end(),
-                     [stroke](const auto& each) { return writes(each, stroke); });
+  const auto index = static_cast<int>(stroke);
+  return std::any_of(match.drawn.begin(), match.drawn.end(), [index](const DrawnStroke& drawn) {
+    return drawn.stroke <= index && index < drawn.stroke + drawn.stroke_count;
+  });
 }
 
 /// Of a path that wrote nothing: how far it is from the beginning of a stroke, forwards or backwards, as an attempt at
@@ -61,13 +61,13 @@ double cost(const MatchResult& result, std::span<const PenPath> paths, const std
             std::size_t count) {
   double sum = 0.0;
   for (const StrokeRemark& remark : result.remarks) {
-    const auto path = static_cast<std::size_t>(remark.path);
     if (remark.kind == StrokeRemarkKind::missing) {
       sum += missing_cost;
-    } else if (remark.kind == StrokeRemarkKind::extra && path < paths.size()) {
-      sum += extra_cost(paths[path], lines, count);
+    } else if (remark.kind == StrokeRemarkKind::extra) {
+      const auto path = static_cast<std::size_t>(remark.path);
+      sum += path < paths.size() ? extra_cost(paths[path], lines, count) : absurd_cost;
     } else {
-      sum += remark.kind == StrokeRemarkKind::extra ? absurd_cost : otherwise_cost;
+      sum += other_cost;
     }
   }
   for (std::size_t path = 0; path < paths.size(); ++path) sum += result.drawn[path].distance;
@@ -86,60 +86,47 @@ void take_back(MatchResult& result, std::size_t count, const Character& characte
   }
 }
 
-/// Of the ways to suppose the rest of a character, keeps the one that leaves the least to remark.
-class Supposition {
- public:
-  Supposition(const Character& character, std::span<const PenPath> paths, const StrokeTolerances& tolerances)
-      : character_(character), paths_(paths), tolerances_(tolerances) {
-    for (const Stroke& stroke : strokes(character)) lines_.push_back(middle_line(stroke, {Point::Zero(), 1.0}));
-  }
-
-  /// @param others what the other paths wrote, of a last path that may go on; null: it does not
-  MatchResult match(const MatchResult* others) {
-    for (std::size_t count = 0; count <= lines_.size(); ++count) {
-      if (others != nullptr && count > 0 && !is_written(*others, count - 1)) {
-        PenPath stroke = lines_[count - 1];
-        suppose(count, finished(paths_.back(), stroke));
-        std::reverse(stroke.begin(), stroke.end());
-        suppose(count, finished(paths_.back(), stroke));
-      }
-      suppose(count, paths_.back());
-    }
-    take_back(best_, paths_.size(), character_);
-    return std::move(best_);
-  }
-
- private:
-  /// That the strokes from `count` on are still to come, and that this is all of the last path.
-  void suppose(std::size_t count, const PenPath& last) {
-    std::vector<PenPath> supposed(paths_.begin(), paths_.end());
+/// Of the ways to suppose the rest of a character, the one that leaves the least to remark.
+/// @param others what the other paths wrote, of a last path that may go on; null: it does not
+MatchResult match_supposing(const Character& character, std::span<const PenPath> paths,
+                            const StrokeTolerances& tolerances, const std::vector<PenPath>& lines,
+                            const MatchResult* others) {
+  MatchResult best;
+  double least = std::numeric_limits<double>::infinity();
+  // That the strokes from `count` on are still to come, and that this is all of the last path.
+  const auto suppose = [&](std::size_t count, const PenPath& last) {
+    std::vector<PenPath> supposed(paths.begin(), paths.end());
     supposed.back() = last;
-    supposed.insert(supposed.end(), lines_.begin() + static_cast<std::ptrdiff_t>(count), lines_.end());
-    MatchResult result = match_strokes(character_, supposed, tolerances_);
-    const double doubt = cost(result, paths_, lines_, count);
-    if (doubt >= least_) return;
-    least_ = doubt;
-    best_ = std::move(result);
+    supposed.insert(supposed.end(), lines.begin() + static_cast<std::ptrdiff_t>(count), lines.end());
+    MatchResult result = match_strokes(character, supposed, tolerances);
+    const double doubt = cost(result, paths, lines, count);
+    if (doubt >= least) return;
+    least = doubt;
+    best = std::move(result);
+  };
+  for (std::size_t count = 0; count <= lines.size(); ++count) {
+    if (others != nullptr && count > 0 && !is_written(*others, count - 1)) {
+      PenPath stroke = lines[count - 1];
+      suppose(count, finished(paths.back(), stroke));
+      std::reverse(stroke.begin(), stroke.end());
+      suppose(count, finished(paths.back(), stroke));
+    }
+    suppose(count, paths.back());
   }
-
-  const Character& character_;
-  const std::span<const PenPath> paths_;
-  const StrokeTolerances& tolerances_;
-  std::vector<PenPath> lines_;
-  MatchResult best_;
-  double least_ = std::numeric_limits<double>::infinity();
-};
+  take_back(best, paths.size(), character);
+  return best;
+}
 
 }  // namespace
 
 MatchResult match_unfinished(const Character& character, std::span<const PenPath> paths,
                              const StrokeTolerances& tolerances) {
-  if (path_length(paths.back()) < tap_length) return Supposition(character, paths, tolerances).match(nullptr);
+  std::vector<PenPath> lines;
+  for (const Stroke& stroke : strokes(character)) lines.push_back(middle_line(stroke, {Point::Zero(), 1.0}));
+  if (path_length(paths.back()) < tap_length) return match_supposing(character, paths, tolerances, lines, nullptr);
   MatchResult others;
-  if (paths.size() > 1) {
-    others = Supposition(character, paths.first(paths.size() - 1), tolerances).match(nullptr);
-  }
-  return Supposition(character, paths, tolerances).match(&others);
+  if (paths.size() > 1) others = match_supposing(character, paths.first(paths.size() - 1), tolerances, lines, nullptr);
+  return match_supposing(character, paths, tolerances, lines, &others);
 }
 
 }  // namespace calligraphy

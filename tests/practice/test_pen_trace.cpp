@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <clocale>
+#include <cstddef>
+#include <limits>
 #include <locale>
 #include <sstream>
 #include <string>
@@ -74,6 +77,18 @@ TEST_CASE("reading and writing a pen trace reproduces the text", "[practice]") {
         "C 二 4E8C made-up 200 2\nS 3 20 60 0 100.5 58 125 180 60 250\nS 2 10 160 700 190 160 700.25\n"
         "C 一 4E00 made-up 1000 1\nS 1 500 500 1\n");
   CHECK(written(read(text)) == text.substr(text.find("C ")));
+}
+
+TEST_CASE("nobody is at the next stroke so soon", "[practice][corpus]") {
+  double shortest = std::numeric_limits<double>::infinity();
+  int lifts = 0;
+  for (const PenTrace& trace : calligraphy_test::traces_of_people()) {
+    for (std::size_t i = 1; i < trace.strokes.size(); ++i, ++lifts) {
+      shortest = std::min(shortest, trace.strokes[i].front().time - trace.strokes[i - 1].back().time);
+    }
+  }
+  CHECK(shortest > 0.1);  // the longest run of lost samples that a pen-down survives
+  WARN(lifts << " lifts between strokes of people, the shortest " << shortest << " s");
 }
 
 TEST_CASE("reading and writing people's pen traces reproduces the text", "[practice][corpus]") {

@@ -231,7 +231,8 @@ TEST_CASE("a displaced stroke is no shorter, whatever its shape and wherever it 
   }
 }
 
-TEST_CASE("a slanted stroke is no shorter", "[practice]") {
+TEST_CASE("a slanted stroke is no shorter, but for one in fifty with a hook", "[practice]") {
+  int strokes_in_all = 0, shorter = 0;
   for (const Character& character : built_in_characters().characters) {
     const PracticePage page = lay_out(std::span(&character, 1)).front();
     for (const double angle : {-0.15, 0.15}) {  // 9 degrees
@@ -249,9 +250,13 @@ TEST_CASE("a slanted stroke is no shorter", "[practice]") {
       }
       const CharacterScore result = pen.scores().front();
       CHECK(result.coverage > 0.9);
-      CHECK(result.coverage == Approx(1.0).margin(0.1));
+      for (const StrokeScore& stroke : result.strokes) {
+        ++strokes_in_all;
+        if (stroke.coverage < 0.95) ++shorter;
+      }
     }
   }
+  CHECK(50 * shorter <= strokes_in_all);
 }
 
 TEST_CASE("the first strokes of a character are matched where they lie", "[practice]") {

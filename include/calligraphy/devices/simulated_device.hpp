@@ -10,7 +10,7 @@
 
 namespace calligraphy {
 
-/// Intended position and velocity of the pen: in device axes for a device, in page coordinates for run_session().
+/// Intended position and velocity of the pen. In device axes, unless what takes it says otherwise.
 struct Intention {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< where the hand means the pen to be [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< at which that position moves on [m/s]

@@ -48,13 +48,13 @@ struct CharacterScore {
   double rms_error = not_measured;  ///< of the strokes written: distance of the pen, over the length of its path [m]
   double max_error = not_measured;  ///< of the strokes written: the largest distance of the pen [m]
   /// `rms_error` with what was left out, of all strokes (StrokeScore::overall_error): a character that was broken off
-  /// does not gain by it. NaN if none was written [m].
+  /// gains less by it. NaN if none was written [m].
   double overall_error = not_measured;
   double coverage = 0.0;      ///< share of the length of all strokes that was written in order [1]
   int stroke_count = 0;       ///< strokes of the character
-  int strokes_written = 0;    ///< of these, strokes that a pen-down wrote, or half of them: those of `rms_error`
+  int strokes_written = 0;    ///< of these, strokes that a pen-down wrote, wholly or for the most part
   int strokes_completed = 0;  ///< of these, strokes that the session took for finished
-  int lost_samples = 0;       ///< without a usable position (TickStatus), while the character was active: left out
+  int lost_samples = 0;       ///< without a usable position (TickStatus) while the character was active; left out
   WritingMotion motion;       ///< of all pen-downs, in metres
   double dtw_distance = not_measured;  ///< mean of those of the strokes written [m]
   /// Mean force across the paper over the samples with the pen on it: how hard the pen is pressed. NaN where no force
@@ -80,7 +80,8 @@ struct CharacterScore {
 };
 
 /// One score per character of the page. A pen-down belongs to the character in whose square it lies, or to the nearest;
-/// which of its strokes it wrote, in which order and direction, match_strokes() tells. Distances are those on the page,
+/// which of its strokes it wrote, in which order and direction, match_strokes() tells. A character that was broken off
+/// is matched as though the strokes still to come had been written in their places. Distances are those on the page,
 /// without the alignment by which match_strokes() recognises what is meant.
 /// @throws ValueError when the page or a tolerance is invalid, when the recording was made on another page
 /// (Recording::page, or events that this page cannot have had), when its time runs backwards, or as match_strokes()
