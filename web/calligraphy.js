@@ -10,6 +10,25 @@ import { constants, functions, structs } from "./calligraphy_layout.mjs";
 
 export { constants };
 
+/**
+ * @typedef {import("./calligraphy_layout.mjs").Handle} Handle
+ * @typedef {import("./calligraphy_layout.mjs").Functions} Functions
+ * @typedef {import("./calligraphy_layout.mjs").Structs} Structs such as Structs["tick"]
+ * @typedef {ReturnType<typeof bind>} Library what load() returns
+ * @typedef {Values<Structs["drawn_stroke"]>} Drawn what a pen-down wrote
+ * @typedef {Values<Structs["remark"]> & {reason: string}} Remark with a sentence for people
+ * @typedef {(expected: string) => never} Refuse throws a TypeError
+ * @typedef {{bytes: Uint8Array, address: number}} Copy of what is not in the library's memory
+ */
+/**
+ * @template Kind
+ * @typedef {import("./calligraphy_layout.mjs").Initial<Kind>} Initial
+ */
+/**
+ * @template Kind
+ * @typedef {import("./calligraphy_layout.mjs").Values<Kind>} Values
+ */
+
 /** What a function of the library refused, in its words. */
 export class CalligraphyError extends Error {
   /**
@@ -23,43 +42,71 @@ export class CalligraphyError extends Error {
   }
 }
 
-class Struct {}  // of which each struct of the interface is a class
+/** Of which each struct of the interface is a class. */
+class Struct {
+  address = 0;
+}
 
+/** @type {Record<string, [least: number, most: number]>} */
 const ranges = {
   Int32: [-(2 ** 31), 2 ** 31 - 1], Uint32: [0, 2 ** 32 - 1], BigUint64: [0, Number.MAX_SAFE_INTEGER],
   Uint8: [0, 255], handle: [0, 2 ** 32 - 1],
 };
 
-/** Refuses what is no number of this type; true and false are 1 and 0. */
+/**
+ * Refuses what is no number of this type; true and false are 1 and 0.
+ * @param {string} type such as "Int32"
+ * @param {unknown} value
+ * @param {Refuse} refuse
+ * @returns {number}
+ */
 function checked(type, value, refuse) {
   if (typeof value === "boolean") value = Number(value);
   if (type === "Float64") return typeof value === "number" ? value : refuse("a number");
   const [least, most] = ranges[type];
-  return Number.isInteger(value) && value >= least && value <= most ? value
+  return typeof value === "number" && Number.isInteger(value) && value >= least && value <= most ? value
     : refuse(type === "handle" ? "a handle" : `an integer from ${least} to ${most}`);
 }
 
 /**
  * @param {BufferSource} [binary] the bytes of calligraphy.wasm; by default it is fetched from beside this file, which
  * node cannot do
- * @returns {Promise<object>} the functions of the C interface, and struct(), discard(), text(), polyline(), hint() and
+ * @returns {Promise<Library>} the functions of the C interface, and struct(), discard(), text(), polyline(), hint() and
  * match()
  */
 export async function load(binary) {
   if (!(binary === undefined || ArrayBuffer.isView(binary) || binary instanceof ArrayBuffer)) {
     throw new TypeError("load: expected the bytes of calligraphy.wasm, or nothing");
   }
-  const module = await createModule(binary ? { wasmBinary: binary } : {});
+  return bind(await createModule(binary ? { wasmBinary: binary } : {}));
+}
+
+/**
+ * The functions of a module.
+ * @param {import("./calligraphy.mjs").Module} module
+ */
+function bind(module) {
   const classes = new Map(Object.keys(structs).map((name) => [name, structClass(name)]));
+  /** @type {DataView | undefined} */
   let whole;  // see view()
   const result = allocate(4);  // to which a function writes by its last parameter
-  const library = { struct, discard, text, polyline, hint, match };
-  for (const [name, { parameters, returns }] of Object.entries(functions)) {
+  /** @type {Functions} */
+  const library = /** @type {any} */ (Object.fromEntries(
+    Object.entries(functions).map(([name, { parameters, returns }]) => [name, bound(name, parameters, returns)])));
+  return { ...library, struct, discard, text, polyline, hint, match };
+
+  /**
+   * @param {string} name of a function
+   * @param {[name: string, type: string][]} parameters
+   * @param {string | null} returns
+   */
+  function bound(name, parameters, returns) {
     const symbol = module[`_calligraphy_${name}`];
-    library[name] = (...values) => {
+    return (/** @type {any[]} */ ...values) => {
       if (values.length !== parameters.length) {
         throw new TypeError(`${name}: ${values.length} arguments, not ${parameters.length}`);
       }
+      /** @type {Copy[]} */
       const copies = [];
       try {
         for (let i = 0; i < values.length; ++i) values[i] = pass(name, parameters, values, i, copies);
@@ -75,14 +122,14 @@ export async function load(binary) {
       }
     };
   }
-  return library;
 
   /**
    * Creates a struct, whose members are zero unless given. Its members are those in the memory of the library; one that
    * is an array can be set from any array of its length, and must be read anew after each call.
-   * @param {string} name such as "tick"
-   * @param {object} [values] of members, or another such struct
-   * @returns {object} with a function values(), which copies all members; discard() frees it
+   * @template {keyof Structs} Name
+   * @param {Name} name such as "tick"
+   * @param {Initial<Structs[Name]>} [values] of members, or another such struct
+   * @returns {Structs[Name]} with a function values(), which copies all members; discard() frees it
    */
   function struct(name, values = {}) {
     const Kind = classes.get(name);
@@ -90,15 +137,16 @@ export async function load(binary) {
     if (values instanceof Struct && !(values instanceof Kind)) {
       throw new TypeError(`a ${Kind.name} was given a ${values.constructor.name}`);
     }
-    const made = Object.preventExtensions(new Kind());
+    const made = /** @type {any} */ (Object.preventExtensions(new Kind()));
     try {
-      return Object.assign(made, values instanceof Struct ? values.values() : values);
+      return Object.assign(made, values instanceof Struct ? /** @type {any} */ (values).values() : values);
     } catch (error) {
       discard(made);
       throw error;
     }
   }
 
+  /** @param {string} name */
   function structClass(name) {
     const { size, members } = structs[name];
     class Kind extends Struct {
@@ -110,8 +158,10 @@ export async function load(binary) {
         view().setUint32(this.address, size, true);
       }
       values() {
-        return Object.fromEntries(Object.entries(members).map(([member, [, , count]]) => [
-          member, count && typeof this[member] !== "string" ? this[member].slice() : this[member]]));
+        return Object.fromEntries(Object.keys(members).map((member) => {
+          const value = /** @type {any} */ (this)[member];
+          return [member, typeof value === "object" ? value.slice() : value];
+        }));
       }
     }
     for (const [member, [type, offset, count]] of Object.entries(members)) {
@@ -120,11 +170,14 @@ export async function load(binary) {
     return Kind;
   }
 
-  /** Frees the memory of a struct, which must not be used any more. */
+  /**
+   * Frees the memory of a struct, which must not be used any more.
+   * @param {Structs[keyof Structs]} made
+   */
   function discard(made) {
     if (!(made instanceof Struct && made.address > 0)) throw new TypeError("discard: no struct, or it was discarded");
     module._free(made.address);
-    made.address = 0;
+    Object.assign(made, { address: 0 });
   }
 
   /**
@@ -138,6 +191,9 @@ export async function load(binary) {
   }
 
   /**
+   * @param {Handle} page
+   * @param {number} character
+   * @param {number} stroke
    * @param {number} shape constants.PATH or constants.OUTLINE
    * @param {number} [tolerance] [m]
    * @returns {Float64Array} x and y of each point of a stroke [m, page]
@@ -149,7 +205,10 @@ export async function load(binary) {
     return points;
   }
 
-  /** The words for the hint of a tick; empty without one. */
+  /**
+   * The words for the hint of a tick; empty without one.
+   * @param {Structs["tick"]} tick
+   */
   function hint(tick) {
     const words = new Uint8Array(128);
     library.hint_text(tick, words, words.length);
@@ -158,12 +217,15 @@ export async function load(binary) {
 
   /**
    * Which stroke each pen-down wrote.
+   * @param {Handle} page
+   * @param {number} character
    * @param {(number[][] | Float64Array)[]} paths of each pen-down: points [x, y], or x and y of each point [m, page]
    * @param {number} [tolerance] such as constants.TOLERANCE_LENIENT
-   * @returns {{drawn: object[], remarks: object[]}} members of the structs; a remark has a `reason`
+   * @returns {{drawn: Drawn[], remarks: Remark[]}}
    */
   function match(page, character, paths, tolerance = constants.TOLERANCE_NORMAL) {
-    const isPath = (path) => path instanceof Float64Array || (Array.isArray(path) && path.every(Array.isArray));
+    const isPath = (/** @type {unknown} */ path) => path instanceof Float64Array
+      || (Array.isArray(path) && path.every(Array.isArray));
     if (!(Array.isArray(paths) && paths.every(isPath))) {
       throw new TypeError("match: expected an array of pen-downs, each an array of points [x, y]");
     }
@@ -184,21 +246,31 @@ export async function load(binary) {
     }
   }
 
-  /** How a member is read and written. */
+  /**
+   * How a member is read and written.
+   * @param {string} name
+   * @param {string} type such as "Int32"
+   * @param {number} offset
+   * @param {number} [count] of an array
+   * @returns {PropertyDescriptor & ThisType<any>}
+   */
   function accessors(name, type, offset, count) {
+    /** @type {Refuse} */
     const refuse = (expected) => { throw new TypeError(`${name}: expected ${expected}`); };
     if (type === "char") {
+      const length = count ?? 1;
       return {
-        get() { return text(memory(place(this, offset), count)); },
+        get() { return text(memory(place(this, offset), length)); },
         set(value) {
           const bytes = textBytes(value) ?? refuse("a text without zeros");
-          if (bytes.length > count) refuse(`at most ${count - 1} bytes of UTF-8`);
-          memory(place(this, offset), count).set(bytes);
+          if (bytes.length > length) refuse(`at most ${length - 1} bytes of UTF-8`);
+          memory(place(this, offset), length).set(bytes);
         },
       };
     }
     if (count) {
-      const values = (made) => new (arrayOf(type))(module.HEAPU8.buffer, place(made, offset), count);
+      const values = (/** @type {Struct} */ made) =>
+        new (arrayOf(type))(module.HEAPU8.buffer, place(made, offset), count);
       return {
         get() { return values(this); },
         set(given) {
@@ -207,25 +279,39 @@ export async function load(binary) {
         },
       };
     }
+    const memoryOf = () => /** @type {any} */ (view());
     return {
-      get() { return Number(view()[`get${type}`](place(this, offset), true)); },
+      get() { return Number(memoryOf()[`get${type}`](place(this, offset), true)); },
       set(value) {
         const number = checked(type, value, refuse);
         if (offset === 0 && number !== this.size) refuse(`${this.size}, which cannot be changed`);
-        view()[`set${type}`](place(this, offset), type === "BigUint64" ? BigInt(number) : number, true);
+        memoryOf()[`set${type}`](place(this, offset), type === "BigUint64" ? BigInt(number) : number, true);
       },
     };
   }
 
-  /** The address of a member. */
+  /**
+   * The address of a member.
+   * @param {Struct} made
+   * @param {number} offset
+   */
   function place(made, offset) {
     if (!(made.address > 0)) throw new TypeError(`this ${made.constructor.name} was discarded`);
     return made.address + offset;
   }
 
-  /** An argument as a number: the address of what is in memory, or of a copy. */
+  /**
+   * An argument as a number: the address of what is in memory, or of a copy.
+   * @param {string} name of the function
+   * @param {[name: string, type: string][]} parameters
+   * @param {any[]} values of all arguments
+   * @param {number} i index of this one
+   * @param {Copy[]} copies
+   * @returns {number}
+   */
   function pass(name, parameters, values, i, copies) {
     const value = values[i], [parameter, type] = parameters[i];
+    /** @type {Refuse} */
     const refuse = (expected) => {
       const given = Object(value) === value ? `of type ${value.constructor?.name}`
         : typeof value === "string" ? JSON.stringify(value) : String(value);
@@ -235,14 +321,14 @@ export async function load(binary) {
     if (value === null && !isNumber) return 0;
     if (isNumber || type === "handle") return checked(type, value, refuse);
     if (type.startsWith("struct ")) {
-      if (!(value instanceof classes.get(type.slice(7)))) refuse(`a ${type} of this library`);
+      if (!(value instanceof /** @type {any} */ (classes.get(type.slice(7))))) refuse(`a ${type} of this library`);
       return value.address > 0 ? value.address : refuse("one that was not discarded");
     }
     if (type === "text") return copy(textBytes(value) ?? refuse("a text without zeros"), copies);
     const [access, element] = type.split(" ");
     const ArrayType = arrayOf(element);
     const array = access === "read" && Array.isArray(value)
-      ? ArrayType.from(value, (each) => checked(element, each, refuse)) : value;
+      ? ArrayType.from(value, (/** @type {unknown} */ each) => checked(element, each, refuse)) : value;
     if (!(array instanceof ArrayType)) refuse(`a ${ArrayType.name}`);
     const least = leastLength(element, parameters, values, i);
     if (array.length < least) refuse(`at least ${least} elements, not ${array.length}`);
@@ -250,6 +336,10 @@ export async function load(binary) {
     return copy(new Uint8Array(array.buffer, array.byteOffset, array.byteLength), copies);
   }
 
+  /**
+   * @param {Uint8Array} bytes
+   * @param {Copy[]} copies to which it is added
+   */
   function copy(bytes, copies) {
     const address = allocate(bytes.length);
     memory(address, bytes.length).set(bytes);
@@ -257,12 +347,17 @@ export async function load(binary) {
     return address;
   }
 
+  /** @param {number} size [bytes] */
   function allocate(size) {
     const address = module._malloc(size || 1);
     if (!address) throw new RangeError(`no memory for ${size} bytes`);
     return address;
   }
 
+  /**
+   * @param {number} address
+   * @param {number} size [bytes]
+   */
   function memory(address, size) {
     return module.HEAPU8.subarray(address, address + size);
   }
@@ -274,11 +369,22 @@ export async function load(binary) {
   }
 }
 
-const arrayOf = (type) => globalThis[`${type}Array`];
+/**
+ * @param {string} type such as "Int32"
+ * @returns {any} such as Int32Array
+ */
+const arrayOf = (type) => (/** @type {any} */ (globalThis))[`${type}Array`];
 
-/** How many elements an array must have, by the names of its parameter and the next one, and their arguments. */
+/**
+ * How many elements an array must have, by the names of its parameter and the next one, and their arguments.
+ * @param {string} element its type
+ * @param {[name: string, type: string][]} parameters
+ * @param {any[]} values of all arguments
+ * @param {number} i index of the array
+ * @returns {number}
+ */
 function leastLength(element, parameters, values, i) {
-  const [[name], [next] = []] = parameters.slice(i), count = values[i + 1];
+  const [name] = parameters[i], next = parameters[i + 1]?.[0] ?? "", count = values[i + 1];
   if (next === "path_sizes") {
     return 2 * Array.from(count ?? []).slice(0, values[i + 2]).reduce((sum, size) => sum + size, 0);
   }
@@ -286,7 +392,10 @@ function leastLength(element, parameters, values, i) {
   return element === "Float64" ? 3 : 1;  // a position, a velocity or a force; or a number
 }
 
-/** A text with its zero in UTF-8; undefined if it is none, or has a zero itself. */
+/**
+ * A text with its zero in UTF-8; undefined if it is none, or has a zero itself.
+ * @param {unknown} text
+ */
 function textBytes(text) {
   return typeof text === "string" && !text.includes("\0") ? new TextEncoder().encode(`${text}\0`) : undefined;
 }

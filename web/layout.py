@@ -3,8 +3,9 @@
 
 usage: layout.py HEADER DIRECTORY
 writes to DIRECTORY:
-  calligraphy_layout.mjs  structs, constants and functions, without the prefix calligraphy_
-  layout_check.cpp        fails to compile where the compiler lays a struct out otherwise
+  calligraphy_layout.mjs    structs, constants and functions, without the prefix calligraphy_
+  calligraphy_layout.d.mts  their types, in TypeScript
+  layout_check.cpp          fails to compile where the compiler lays a struct out otherwise
 """
 import json
 import pathlib
@@ -18,7 +19,7 @@ MEMBERS = {
 }
 # Types of a last parameter to which a function writes a single value, which JavaScript returns.
 RESULTS = {
-    r"calligraphy_\w+\*\*": "number", r"u?int32_t\*": "number", r"size_t\*": "number", r"const char\*\*": "text",
+    r"calligraphy_\w+\*\*": "handle", r"u?int32_t\*": "number", r"size_t\*": "number", r"const char\*\*": "text",
 }
 # Types of the other parameters, and what JavaScript passes for them: an array of a type, to be read or written.
 PARAMETERS = {
@@ -26,6 +27,22 @@ PARAMETERS = {
     "const char*": "text", "const double*": "read Float64", "double*": "write Float64",
     "const uint32_t*": "read Uint32", "int32_t*": "write Int32", "const void*": "read Uint8", "char*": "write Uint8",
 }
+# Types of TypeScript that are the same for every header.
+TYPES = """\
+/** An object of the library, until it is freed. */
+export type Handle = number;
+type Members<Kind> = Exclude<keyof Kind, "address" | "values">;
+/** A copy of the members of a struct. */
+export type Values<Kind> = { -readonly [Member in Members<Kind>]: Kind[Member] };
+/** What a struct can be made from: those of its members that are not zero. */
+export type Initial<Kind> = {
+  readonly [Member in Members<Kind>]?: Kind[Member] extends number ? number | boolean
+    : Kind[Member] extends string ? string : ArrayLike<number | boolean>;
+};
+/** Of each member: its type, its offset and, of an array, its length. */
+export const structs: Record<string, { size: number, members: Record<string, [string, number, number?]> }>;
+export const functions: Record<string, { parameters: [string, string][], returns: string | null }>;
+"""
 
 
 def layout(struct, body):
@@ -65,6 +82,53 @@ def function(returns, declaration, structs):
     return {"parameters": passed, "returns": result}
 
 
+def interface(struct):
+    """The name of a struct in TypeScript."""
+    return "".join(part.capitalize() for part in struct.split("_"))
+
+
+def declared_member(name, kind, _offset, count=None):
+    """A member in TypeScript. One that is an array can be set from any array of its length."""
+    if name == "size":
+        return "readonly size: number"
+    if count and kind != "char":
+        return f"get {name}(): {kind}Array; set {name}(values: ArrayLike<number>)"
+    return f"{name}: {'string' if count else 'number'}"
+
+
+def declared_parameter(name, kind):
+    """A parameter in TypeScript. Every pointer may be null there, though not all functions permit it."""
+    access, _, of = kind.partition(" ")
+    if access == "struct":
+        return f"{name}: {interface(of)} | null"
+    if access in ("read", "write"):
+        return f"{name}: {'readonly number[] | ' if access == 'read' else ''}{of}Array | null"
+    if name == "handle":
+        return "handle: Handle | null"  # of any kind
+    return f"{name}: " + {"handle": "Handle", "text": "string | null"}.get(kind, "number")
+
+
+def declared_function(name, parameters, returns):
+    passed = ", ".join(declared_parameter(*each) for each in parameters)
+    return f"{name}({passed}): " + {"handle": "Handle", "text": "string", "number": "number", None: "void"}[returns]
+
+
+def declarations(structs, constants, functions):
+    """The types of all, in TypeScript."""
+    def block(head, lines):
+        return f"{head} {{\n" + "".join(f"  {line};\n" for line in lines) + "}\n"
+
+    return TYPES + "".join(
+        block(f"export interface {interface(name)}", [
+            *(declared_member(member, *place) for member, place in struct["members"].items()),
+            "readonly address: number", f"values(): Values<{interface(name)}>"])
+        for name, struct in structs.items()
+    ) + "".join(block(*each) for each in (
+        ("export interface Structs", [f"{name}: {interface(name)}" for name in structs]),
+        ("export const constants:", [f"readonly {name}: number" for name in constants]),
+        ("export interface Functions", [declared_function(name, **each) for name, each in functions.items()])))
+
+
 def constant(enumeration, line):
     found = re.fullmatch(r"CALLIGRAPHY_(\w+) = (\d+)", line.strip())
     if not found:
@@ -87,6 +151,7 @@ def main():
 
     (directory / "calligraphy_layout.mjs").write_text(
         "".join(table(*each) for each in (("structs", structs), ("constants", constants), ("functions", functions))))
+    (directory / "calligraphy_layout.d.mts").write_text(declarations(structs, constants, functions))
     checks = [f"static_assert(sizeof(calligraphy_{name}) == {struct['size']});\n" + "".join(
         f"static_assert(offsetof(calligraphy_{name}, {member}) == {place[1]});\n"
         for member, place in struct["members"].items()) for name, struct in structs.items()]
