@@ -153,7 +153,7 @@ function bind(module) {
       static name = `struct ${name}`;
       constructor() {
         super();
-        Object.defineProperty(this, "address", { value: allocate(size), writable: true });
+        Object.defineProperty(this, "address", { value: allocate(size), writable: true, enumerable: false });
         memory(this.address, size).fill(0);
         view().setUint32(this.address, size, true);
       }
