@@ -360,6 +360,7 @@ void add_session(const Recording& recording, const PracticePage& page, std::vect
   for (CharacterScore& score : scores) {
     score.strokes_completed = static_cast<int>(
         std::count_if(score.strokes.begin(), score.strokes.end(), [](const auto& stroke) { return stroke.completed; }));
+    if (score.strokes_completed < score.stroke_count) score.time = not_measured;  // a stroke was skipped
   }
 }
 

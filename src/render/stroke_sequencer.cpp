@@ -53,6 +53,22 @@ void StrokeSequencer::restart() noexcept {
   activate(0, 0);
 }
 
+bool StrokeSequencer::skip() noexcept {
+  if (writer_.state == InteractionState::writing || all_written() || is_character_written()) return false;
+  const int next = writer_.stroke + 1;
+  if (next < static_cast<int>(character_->strokes.size())) {
+    activate(writer_.character, next);
+  } else if (writer_.state == InteractionState::separation) {
+    activate(writer_.character + 1, 0);
+  } else {
+    writer_.stroke = next;
+    writer_.rests = false;
+  }
+  // A pen on the paper was put down for the stroke that is no longer due: guidance lets go of it.
+  if (writer_.state != InteractionState::separation) writer_.phase = WritingPhase::finished;
+  return true;
+}
+
 const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
   using State = InteractionState;
   const Point tip = pen.tip.head<2>();
@@ -179,8 +195,7 @@ bool StrokeSequencer::is_finished(bool leaves) const noexcept {
   writer_.events |= TickEvent::lift;
   writer_.rests = false;
   if (all_written()) return;
-  const bool is_character_written = writer_.stroke == static_cast<int>(character_->strokes.size());
-  if (is_character_written) activate(writer_.character + 1, 0);
+  if (is_character_written()) activate(writer_.character + 1, 0);
 }
 
 [[gnu::noinline]] void StrokeSequencer::activate(int character, int stroke) noexcept {

@@ -126,6 +126,7 @@ void add_render(py::module_& module) {
            "the servo rate from the last tick on. Returns N ticks (tick_dtype). Releases the GIL. After Ctrl-C, call "
            "restart().")
       .def("restart", [](HapticRenderer& self) { idle(self).restart(); })
+      .def("skip_stroke", [](HapticRenderer& self) { return idle(self).skip_stroke(); })
       .def_property_readonly("last", [](const HapticRenderer& self) { return idle(self).last(); })
       .def_property_readonly("options", &HapticRenderer::options, py::return_value_policy::copy)
       .def_property_readonly("clipped", &HapticRenderer::clipped)

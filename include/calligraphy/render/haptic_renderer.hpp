@@ -39,6 +39,14 @@ class HapticRenderer {
   /// Starts the page again: nothing written, force zero immediately, energy and heat as at the beginning.
   void restart() noexcept;
 
+  /// Passes over the stroke that is due, as though it had been written, but without an event: neither a recording nor a
+  /// score counts it as written. Past the last stroke of a character the next one is due, and past that of the last
+  /// character the page counts as written. A pen on the paper must be lifted first, as after a stroke that was written.
+  /// last() shows it from the next update() on. For the thread that calls update(), between two calls; never allocates.
+  /// Returns false, and does nothing, while the pen writes the stroke (InteractionState::writing) and where none is
+  /// due: the page is written, or the pen has not left the last stroke of the character yet.
+  bool skip_stroke() noexcept { return sequencer_.skip(); }
+
   /// What the last update() returned. For the thread that calls update() alone: for a display, publish it through a
   /// LatestValue.
   const HapticTick& last() const noexcept { return tick_; }

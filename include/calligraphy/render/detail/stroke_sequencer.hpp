@@ -24,11 +24,15 @@ class StrokeSequencer {
   const WriterState& update(const PenState& pen) noexcept;
   /// Nothing is written.
   void restart() noexcept;
+  /// HapticRenderer::skip_stroke().
+  bool skip() noexcept;
 
   const std::vector<PlacedCharacter>& page() const noexcept { return page_.characters(); }
 
  private:
   bool all_written() const noexcept { return character_ == nullptr; }
+  /// Until the pen is lifted from it. Not all may be written.
+  bool is_character_written() const noexcept { return writer_.stroke == static_cast<int>(character_->strokes.size()); }
 
   TransitionInput advance(const PenState& pen) noexcept;
   void put_down(const Point& tip) noexcept;
