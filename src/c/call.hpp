@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <calligraphy/c/calligraphy.h>
 #include <calligraphy/base/error.hpp>
@@ -78,6 +79,13 @@ void hand_out(Handle** handle, std::shared_ptr<Object> object) {
 
 /// An index in [0, count). @throws Refusal naming it
 void require_index(const char* name, std::int32_t index, std::size_t count);
+
+/// The item with this index. @throws Refusal naming the index
+template <class Item>
+const Item& item(const char* name, const std::vector<Item>& items, std::int32_t index) {
+  require_index(name, index, items.size());
+  return items[static_cast<std::size_t>(index)];
+}
 
 /// @throws Refusal naming the value
 [[noreturn]] void throw_no_value(const char* name, std::int32_t value, int last);

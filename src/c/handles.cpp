@@ -12,7 +12,7 @@ namespace calligraphy::c {
 namespace {
 
 // Bits of a handle, from the lowest: kind, index of its slot, and how often that was used before.
-constexpr int kind_bits = 3, index_bits = 16;
+constexpr int kind_bits = 4, index_bits = 16;
 constexpr std::uintptr_t kind_mask = (std::uintptr_t{1} << kind_bits) - 1;
 constexpr std::uintptr_t index_mask = (std::uintptr_t{1} << index_bits) - 1;
 constexpr std::uintptr_t one_use = std::uintptr_t{1} << (kind_bits + index_bits);
@@ -51,7 +51,7 @@ Slot* slot_of(std::uintptr_t handle) noexcept {
 }  // namespace
 
 const char* to_string(Kind kind) noexcept {
-  constexpr std::array names{"", "set", "page", "device", "renderer", "servo", "match"};
+  constexpr std::array names{"", "set", "page", "device", "renderer", "servo", "match", "recording", "score"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -102,7 +102,7 @@ const std::shared_ptr<void>* find_handle(Kind kind, const void* handle) noexcept
 
 Kind kind_of_handle(const void* handle) noexcept {
   const auto kind = static_cast<Kind>(reinterpret_cast<std::uintptr_t>(handle) & kind_mask);
-  return kind != Kind{} && kind <= Kind::match && find_handle(kind, handle) ? kind : Kind{};
+  return kind != Kind{} && kind <= Kind::score && find_handle(kind, handle) ? kind : Kind{};
 }
 
 }  // namespace calligraphy::c

@@ -20,12 +20,6 @@ std::vector<PenPath> paths_in_square(const double* points, std::span<const std::
   return paths;
 }
 
-template <class Item>
-const Item& item(const char* name, const std::vector<Item>& items, std::int32_t index) {
-  require_index(name, index, items.size());
-  return items[static_cast<std::size_t>(index)];
-}
-
 }  // namespace
 }  // namespace calligraphy::c
 

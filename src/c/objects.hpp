@@ -12,6 +12,8 @@
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/practice/page.hpp>
+#include <calligraphy/practice/recording.hpp>
+#include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/stroke_matching.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 
@@ -64,6 +66,15 @@ struct ServoObject {
   Servo servo;
 };
 
+/// A recording, and its page.
+struct RecordingObject {
+  std::shared_ptr<PracticePage> page;
+  Recording recording;
+};
+
+/// By character.
+using Scores = std::vector<CharacterScore>;
+
 template <>
 inline constexpr Kind kind_of<CharacterSet> = Kind::set;
 template <>
@@ -76,6 +87,10 @@ template <>
 inline constexpr Kind kind_of<ServoObject> = Kind::servo;
 template <>
 inline constexpr Kind kind_of<MatchResult> = Kind::match;
+template <>
+inline constexpr Kind kind_of<RecordingObject> = Kind::recording;
+template <>
+inline constexpr Kind kind_of<Scores> = Kind::score;
 
 /// A character of a set in its standard order. @throws Refusal if the set does not have it, FormatError if it is
 /// damaged

@@ -94,6 +94,14 @@ calligraphy_status calligraphy_renderer_restart(calligraphy_renderer* renderer) 
   return CALLIGRAPHY_OK;
 }
 
+calligraphy_status calligraphy_renderer_skip_stroke(calligraphy_renderer* renderer, int32_t* skipped) {
+  auto* const found = find<RendererObject>(renderer);
+  if (!found) return refuse_handle(Kind::renderer, renderer);
+  const bool is_skipped = found->renderer.skip_stroke();
+  if (skipped) *skipped = is_skipped;
+  return CALLIGRAPHY_OK;
+}
+
 calligraphy_status calligraphy_hint_text(const calligraphy_tick* tick, char* text, size_t capacity) {
   return guarded([&] {
     const calligraphy_tick given = read_struct(tick, "calligraphy_tick");

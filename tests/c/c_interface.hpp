@@ -3,8 +3,12 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <calligraphy/c/calligraphy.h>
+#include <calligraphy/model/character_list.hpp>
+#include <calligraphy/practice/page.hpp>
 
 #include "catch.hpp"
 
@@ -35,6 +39,13 @@ inline Owned<calligraphy_page> page_of(const char* text) {
   calligraphy_page* page = nullptr;
   REQUIRE(calligraphy_page_lay_out(built_in_set().get(), text, nullptr, nullptr, &page) == CALLIGRAPHY_OK);
   return Owned<calligraphy_page>(page);
+}
+
+/// The same page in C++.
+inline calligraphy::PracticePage page_in_cpp(std::u32string_view text) {
+  std::vector<calligraphy::Character> characters;
+  for (const char32_t code : text) characters.push_back(calligraphy::built_in_characters().at(code));
+  return calligraphy::lay_out(characters).front();
 }
 
 inline calligraphy_capabilities profile(const char* name = "desktop") {

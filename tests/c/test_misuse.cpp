@@ -30,6 +30,8 @@ struct Everything {
   Owned<calligraphy_device> host = host_device(capabilities), pointer;
   Owned<calligraphy_servo> servo = servo_of(device.get(), renderer.get());
   Owned<calligraphy_match> match;
+  Owned<calligraphy_recording> recording;
+  Owned<calligraphy_score> score;
   calligraphy_mapping mapping = sized<calligraphy_mapping>();
   calligraphy_tick tick = sized<calligraphy_tick>();
   calligraphy_device_state state = sized<calligraphy_device_state>();
@@ -44,12 +46,25 @@ struct Everything {
     REQUIRE(calligraphy_match_strokes(page.get(), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL,
                                       &match_handle) == CALLIGRAPHY_OK);
     match.reset(match_handle);
+    calligraphy_recording* recording_handle = nullptr;
+    REQUIRE(calligraphy_recording_create(page.get(), 0.0, &recording_handle) == CALLIGRAPHY_OK);
+    recording.reset(recording_handle);
+    calligraphy_score* score_handle = nullptr;
+    REQUIRE(calligraphy_score_recording(recording.get(), CALLIGRAPHY_TOLERANCE_NORMAL, &score_handle) ==
+            CALLIGRAPHY_OK);
+    score.reset(score_handle);
   }
 };
 
 std::vector<std::pair<std::string, void*>> handles_of(const Everything& all) {
-  return {{"set", all.set.get()},           {"page", all.page.get()},   {"device", all.device.get()},
-          {"renderer", all.renderer.get()}, {"servo", all.servo.get()}, {"match", all.match.get()}};
+  return {{"set", all.set.get()},
+          {"page", all.page.get()},
+          {"device", all.device.get()},
+          {"renderer", all.renderer.get()},
+          {"servo", all.servo.get()},
+          {"match", all.match.get()},
+          {"recording", all.recording.get()},
+          {"score", all.score.get()}};
 }
 
 /// A call with a handle of a kind; every function that takes one occurs.
@@ -80,12 +95,19 @@ std::vector<HandleCall> handle_calls(Everything& all) {
   static calligraphy_renderer* renderer;
   static calligraphy_servo* servo;
   static calligraphy_match* match;
+  static calligraphy_recording* recording;
+  static calligraphy_score* score;
+  static auto character_score = sized<calligraphy_character_score>();
+  static auto stroke_score = sized<calligraphy_stroke_score>();
+  static auto pen_down_score = sized<calligraphy_pen_down_score>();
   using Set = calligraphy_set;
   using Page = calligraphy_page;
   using Renderer = calligraphy_renderer;
   using Device = calligraphy_device;
   using Servo = calligraphy_servo;
   using Match = calligraphy_match;
+  using Recording = calligraphy_recording;
+  using Score = calligraphy_score;
   return {
       {"set_next", "set", [](void* h) { return calligraphy_set_next(as<Set>(h), 0, &code); }},
       {"set_stroke_count", "set", [](void* h) { return calligraphy_set_stroke_count(as<Set>(h), U'永', &number); }},
@@ -106,6 +128,8 @@ std::vector<HandleCall> handle_calls(Everything& all) {
        [](void* h) {
          return calligraphy_match_strokes(as<Page>(h), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL, &match);
        }},
+      {"recording_create", "page",
+       [](void* h) { return calligraphy_recording_create(as<Page>(h), 1000.0, &recording); }},
       {"device_point", "device",
        [](void* h) { return calligraphy_device_move_pointer(as<Device>(h), 0.0, 0.0, 0.5, 0); }},
       {"device_intend", "device", [](void* h) { return calligraphy_device_intend(as<Device>(h), points, nullptr); }},
@@ -123,12 +147,23 @@ std::vector<HandleCall> handle_calls(Everything& all) {
       {"renderer_update", "renderer",
        [&](void* h) { return calligraphy_renderer_update(as<Renderer>(h), &all.state, &all.tick); }},
       {"renderer_restart", "renderer", [](void* h) { return calligraphy_renderer_restart(as<Renderer>(h)); }},
+      {"renderer_skip_stroke", "renderer",
+       [](void* h) { return calligraphy_renderer_skip_stroke(as<Renderer>(h), &number); }},
       {"servo_step", "servo", [&](void* h) { return calligraphy_servo_step(as<Servo>(h), 0.0, &all.tick); }},
       {"servo_release", "servo", [](void* h) { return calligraphy_servo_release(as<Servo>(h)); }},
       {"servo_read_state", "servo", [](void* h) { return calligraphy_servo_read_state(as<Servo>(h), &servo_state); }},
       {"match_drawn", "match", [](void* h) { return calligraphy_match_drawn(as<Match>(h), 0, &drawn); }},
       {"match_remark_count", "match", [](void* h) { return calligraphy_match_remark_count(as<Match>(h), &number); }},
       {"match_remark", "match", [](void* h) { return calligraphy_match_remark(as<Match>(h), 0, &remark, nullptr); }},
+      {"recording_add", "recording", [&](void* h) { return calligraphy_recording_add(as<Recording>(h), &all.tick); }},
+      {"score_recording", "recording",
+       [](void* h) { return calligraphy_score_recording(as<Recording>(h), CALLIGRAPHY_TOLERANCE_NORMAL, &score); }},
+      {"score_character", "score",
+       [](void* h) { return calligraphy_score_character(as<Score>(h), 0, &character_score); }},
+      {"score_stroke", "score", [](void* h) { return calligraphy_score_stroke(as<Score>(h), 0, 0, &stroke_score); }},
+      {"score_pen_down", "score",
+       [](void* h) { return calligraphy_score_pen_down(as<Score>(h), 0, 0, &pen_down_score); }},
+      {"score_match", "score", [](void* h) { return calligraphy_score_match(as<Score>(h), 0, &match); }},
   };
 }
 
@@ -320,11 +355,16 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
   bad_options.paper_stiffness = not_a_number;
   auto bad_choice = all.options;
   bad_choice.stiffness_check = 3;
+  auto no_state = sized<calligraphy_tick>(), no_status = no_state;
+  no_state.state = 4;
+  no_status.status = -1;
   calligraphy_set* set = nullptr;
   calligraphy_page* page = nullptr;
   calligraphy_device* device = nullptr;
   calligraphy_renderer* renderer = nullptr;
   calligraphy_match* match = nullptr;
+  calligraphy_recording* recording = nullptr;
+  calligraphy_score* score = nullptr;
   std::size_t count = 0;
   std::uint32_t code = 0;
   std::int32_t number = 0;
@@ -459,12 +499,40 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
          auto drawn = sized<calligraphy_drawn_stroke>();
          return calligraphy_match_drawn(all.match.get(), 0, &drawn);
        }},
+      {"recording", value, "rate = -1 Hz",
+       [&] { return calligraphy_recording_create(all.page.get(), -1.0, &recording); }},
+      {"recording", value, "rate = nan Hz",
+       [&] { return calligraphy_recording_create(all.page.get(), not_a_number, &recording); }},
+      {"recording", value, "recording is null",
+       [&] { return calligraphy_recording_create(all.page.get(), 0.0, nullptr); }},
+      {"add", value, "calligraphy_tick is null",
+       [&] { return calligraphy_recording_add(all.recording.get(), nullptr); }},
+      {"add", value, "state = 4, must be 0 to 3",
+       [&] { return calligraphy_recording_add(all.recording.get(), &no_state); }},
+      {"add", value, "status = -1, must be 0 to 3",
+       [&] { return calligraphy_recording_add(all.recording.get(), &no_status); }},
+      {"score", value, "tolerance = 3", [&] { return calligraphy_score_recording(all.recording.get(), 3, &score); }},
+      {"score", value, "score is null",
+       [&] { return calligraphy_score_recording(all.recording.get(), normal, nullptr); }},
+      {"score", value, "calligraphy_character_score is null",
+       [&] { return calligraphy_score_character(all.score.get(), 0, nullptr); }},
+      {"score", value, "calligraphy_stroke_score is null",
+       [&] { return calligraphy_score_stroke(all.score.get(), 0, 4, nullptr); }},
+      {"score", value, "path = 0",
+       [&] {
+         auto pen_down = sized<calligraphy_pen_down_score>();
+         return calligraphy_score_pen_down(all.score.get(), 0, 0, &pen_down);
+       }},
+      {"score", value, "match is null", [&] { return calligraphy_score_match(all.score.get(), 0, nullptr); }},
+      {"score", value, "character = -1", [&] { return calligraphy_score_match(all.score.get(), -1, &match); }},
   });
   CHECK(set == nullptr);
   CHECK(page == nullptr);
   CHECK(device == nullptr);
   CHECK(renderer == nullptr);
   CHECK(match == nullptr);
+  CHECK(recording == nullptr);
+  CHECK(score == nullptr);
 }
 
 TEST_CASE("a broken set is a format error, a missing one a file error") {

@@ -432,6 +432,9 @@ TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its 
   CHECK(sizeof(calligraphy_servo_state) == 64);
   CHECK(sizeof(calligraphy_drawn_stroke) == 40);
   CHECK(sizeof(calligraphy_remark) == 16);
+  CHECK(sizeof(calligraphy_character_score) == 208);
+  CHECK(sizeof(calligraphy_stroke_score) == 56);
+  CHECK(sizeof(calligraphy_pen_down_score) == 64);
 }
 
 TEST_CASE("the names of C are the values of C++") {

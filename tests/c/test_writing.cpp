@@ -7,8 +7,6 @@
 #include <calligraphy/devices/pointer_device.hpp>
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/model/character_list.hpp>
-#include <calligraphy/practice/page.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 
 #include "allocation_counter.hpp"
@@ -20,12 +18,6 @@ using namespace calligraphy;
 using namespace calligraphy_test;
 
 namespace {
-
-PracticePage page_in_cpp(std::u32string_view text) {
-  std::vector<Character> characters;
-  for (const char32_t code : text) characters.push_back(built_in_characters().at(code));
-  return lay_out(characters).front();
-}
 
 /// Where a pen means to be that writes a page, tick by tick [m, page]: with a tremor, and 1.5 mm beside the strokes.
 /// Between two strokes it is lifted.

@@ -519,6 +519,14 @@ CALLIGRAPHY_API calligraphy_status calligraphy_renderer_update(calligraphy_rende
 /// Starts the page again, with nothing written and zero force.
 CALLIGRAPHY_API calligraphy_status calligraphy_renderer_restart(calligraphy_renderer* renderer);
 
+/// Passes over the stroke that is due, as though it had been written, but without an event: neither a recording nor a
+/// score counts it as written. Past the last stroke of a character the next one is due, and past that of the last
+/// character the page counts as written. A pen on the paper must be lifted first, as after a stroke that was written.
+/// The next tick shows it. Neither allocates, locks nor logs. Writes to `skipped` whether it did: not while the pen
+/// writes the stroke (CALLIGRAPHY_WRITING), nor where none is due: the page is written, or the pen has not left the
+/// last stroke of the character yet. A null `skipped` is not written.
+CALLIGRAPHY_API calligraphy_status calligraphy_renderer_skip_stroke(calligraphy_renderer* renderer, int32_t* skipped);
+
 /// The words for a tick's hint, "too far from the start: 12 mm to the upper left", in UTF-8 and terminated by a zero.
 /// Empty without a hint. For the display: it allocates. CALLIGRAPHY_TOO_SMALL if the text does not fit into `capacity`
 /// bytes; 128 are enough.
@@ -631,6 +639,107 @@ CALLIGRAPHY_API calligraphy_status calligraphy_match_remark_count(const calligra
 /// The remark with this index, and one sentence for people, in UTF-8 and valid as long as the match. Both are optional.
 CALLIGRAPHY_API calligraphy_status calligraphy_match_remark(const calligraphy_match* match, int32_t index,
                                                             calligraphy_remark* remark, const char** reason);
+
+// How well it was written.
+
+/// A page being written, tick by tick.
+typedef struct calligraphy_recording calligraphy_recording;
+
+/// An empty recording of a page. `rate`: ticks per second; 0: 1000 [Hz].
+CALLIGRAPHY_API calligraphy_status calligraphy_recording_create(const calligraphy_page* page, double rate,
+                                                                calligraphy_recording** recording);
+
+/// Appends a tick: all of them belong into it, those with the pen in the air too, in the order of their times. Takes
+/// 104 bytes. It allocates now and then, which a real-time loop had better leave to another thread. Where the hand felt
+/// no force, as with vision alone, set the tick's `page_force` to zero before.
+CALLIGRAPHY_API calligraphy_status calligraphy_recording_add(calligraphy_recording* recording,
+                                                             const calligraphy_tick* tick);
+
+/// Scores of all characters of a recording (docs/practice.md).
+typedef struct calligraphy_score calligraphy_score;
+
+/// Scores what was written up to now: a pen-down belongs to the character in whose square it lies, or to the nearest.
+/// Distances are those on the page. `tolerance`: a calligraphy_tolerance. CALLIGRAPHY_INVALID_VALUE if the ticks are of
+/// another page, or a time is before the previous one.
+CALLIGRAPHY_API calligraphy_status calligraphy_score_recording(const calligraphy_recording* recording,
+                                                               int32_t tolerance, calligraphy_score** score);
+
+/// Score of a character. What was not measured is NaN: errors where no stroke was written, the time of a character that
+/// was not completed.
+typedef struct calligraphy_character_score {
+  uint32_t size;               ///< sizeof(calligraphy_character_score)
+  uint32_t code;               ///< Unicode code point
+  int32_t stroke_count;        ///< strokes of the character
+  int32_t strokes_written;     ///< of these, strokes that a pen-down wrote, wholly or for the most part
+  int32_t strokes_completed;   ///< of these, strokes with CALLIGRAPHY_STROKE_FINISHED
+  int32_t pen_down_count;      ///< number of pen-downs
+  int32_t order_mistakes;      ///< remarks of CALLIGRAPHY_REMARK_ORDER
+  int32_t direction_mistakes;  ///< remarks of CALLIGRAPHY_REMARK_DIRECTION
+  int32_t lost_samples;        ///< ticks without a usable position while the character was active; left out
+  int32_t pen_ups;             ///< lifts between the first pen-down and the last
+  int32_t velocity_peaks;      ///< of all pen-downs; few in fluent writing
+  double time;                 ///< from the first pen-down to the tick that finished the last stroke [s]
+  double rms_error;            ///< of the strokes written: distance of the pen, over the length of its path [m]
+  double max_error;            ///< of the strokes written: the largest distance of the pen [m]
+  double overall_error;        ///< `rms_error` with what was left out, of all strokes [m]
+  double coverage;             ///< share of the length of all strokes that was written in order [1]
+  double dtw_distance;         ///< mean distance by dynamic time warping of the strokes written [m]
+  double contour;              ///< how near the pen was to the strokes, from 0 to 1 [1]
+  double external_sequence;    ///< share of the strokes that were written in order [1]
+  double internal_sequence;    ///< share of the strokes that were not written backwards [1]
+  double fidelity;             ///< geometric mean of these three [1]
+  double mean_pressure;        ///< mean force across the paper, with the pen on it [N]
+  double peak_force;           ///< on the page [N]
+  double max_force_step;       ///< of that, from one tick to the next [N]
+  double duration;             ///< from the first touch to the last lift [s]
+  double time_on_paper;        ///< sum of the durations of the pen-downs [s]
+  double time_in_air;          ///< between the pen-downs [s]
+  double path_length;          ///< on the paper [m]
+  double mean_speed;           ///< on the paper [m/s]
+  double peak_speed;           ///< on the paper [m/s]
+  double smoothness;           ///< mean of the pen-downs' [1]
+} calligraphy_character_score;
+
+/// The score of the character with this index.
+CALLIGRAPHY_API calligraphy_status calligraphy_score_character(const calligraphy_score* score, int32_t character,
+                                                               calligraphy_character_score* result);
+
+/// What was written of a stroke. What was not measured is NaN.
+typedef struct calligraphy_stroke_score {
+  uint32_t size;         ///< sizeof(calligraphy_stroke_score)
+  int32_t pen_down;      ///< the first one that wrote it; -1: none
+  int32_t completed;     ///< whether it had CALLIGRAPHY_STROKE_FINISHED
+  double coverage;       ///< share of its length that was written in order; 0 if it was written backwards [1]
+  double rms_error;      ///< distance of the pen from the stroke, over the length of the pen's path [m]
+  double max_error;      ///< the largest distance of the pen from the stroke [m]
+  double overall_error;  ///< `rms_error` with what was left out [m]
+  double dtw_distance;   ///< distance of what was written from the stroke by dynamic time warping [m]
+} calligraphy_stroke_score;
+
+/// The stroke with this index of the character with this index.
+CALLIGRAPHY_API calligraphy_status calligraphy_score_stroke(const calligraphy_score* score, int32_t character,
+                                                            int32_t stroke, calligraphy_stroke_score* result);
+
+/// One pen-down. What was not measured is NaN, as are speeds and smoothness of one that is shorter than 50 ms.
+typedef struct calligraphy_pen_down_score {
+  uint32_t size;           ///< sizeof(calligraphy_pen_down_score)
+  int32_t velocity_peaks;  ///< 1 in a single fluent motion, more where the pen hesitates
+  double begin;            ///< time of its first tick, as calligraphy_tick::time [s]
+  double end;              ///< time of its last tick [s]
+  double path_length;      ///< [m]
+  double mean_speed;       ///< path_length / (end - begin) [m/s]
+  double peak_speed;       ///< [m/s]
+  double smoothness;       ///< spectral arc length (SPARC): about -1.4 in a fluent motion, lower otherwise [1]
+  double mean_pressure;    ///< mean force across the paper [N]
+} calligraphy_pen_down_score;
+
+/// The pen-down with this index of the character with this index.
+CALLIGRAPHY_API calligraphy_status calligraphy_score_pen_down(const calligraphy_score* score, int32_t character,
+                                                              int32_t path, calligraphy_pen_down_score* result);
+
+/// Which stroke each pen-down of a character wrote, with remarks.
+CALLIGRAPHY_API calligraphy_status calligraphy_score_match(const calligraphy_score* score, int32_t character,
+                                                           calligraphy_match** match);
 
 #ifdef __cplusplus
 }
