@@ -17,6 +17,11 @@ export { constants };
  * @typedef {ReturnType<typeof bind>} Library what load() returns
  * @typedef {Values<Structs["drawn_stroke"]>} Drawn what a pen-down wrote
  * @typedef {Values<Structs["remark"]> & {reason: string}} Remark with a sentence for people
+ * @typedef {{drawn: Drawn[], remarks: Remark[]}} Match
+ * @typedef {Values<Structs["stroke_score"]>} StrokeScore
+ * @typedef {Values<Structs["pen_down_score"]>} PenDownScore
+ * @typedef {Values<Structs["character_score"]>} CharacterScore
+ * @typedef {CharacterScore & {strokes: StrokeScore[], pen_downs: PenDownScore[]} & Match} Score
  * @typedef {(expected: string) => never} Refuse throws a TypeError
  * @typedef {{bytes: Uint8Array, address: number}} Copy of what is not in the library's memory
  */
@@ -71,8 +76,8 @@ function checked(type, value, refuse) {
 /**
  * @param {BufferSource} [binary] the bytes of calligraphy.wasm; by default it is fetched from beside this file, which
  * node cannot do
- * @returns {Promise<Library>} the functions of the C interface, and struct(), discard(), text(), polyline(), hint() and
- * match()
+ * @returns {Promise<Library>} the functions of the C interface, and struct(), discard(), text(), polyline(), hint(),
+ * match() and score()
  */
 export async function load(binary) {
   if (!(binary === undefined || ArrayBuffer.isView(binary) || binary instanceof ArrayBuffer)) {
@@ -93,7 +98,7 @@ function bind(module) {
   /** @type {Functions} */
   const library = /** @type {any} */ (Object.fromEntries(
     Object.entries(functions).map(([name, { parameters, returns }]) => [name, bound(name, parameters, returns)])));
-  return { ...library, struct, discard, text, polyline, hint, match };
+  return { ...library, struct, discard, text, polyline, hint, match, score };
 
   /**
    * @param {string} name of a function
@@ -221,7 +226,7 @@ function bind(module) {
    * @param {number} character
    * @param {(number[][] | Float64Array)[]} paths of each pen-down: points [x, y], or x and y of each point [m, page]
    * @param {number} [tolerance] such as constants.TOLERANCE_LENIENT
-   * @returns {{drawn: Drawn[], remarks: Remark[]}}
+   * @returns {Match}
    */
   function match(page, character, paths, tolerance = constants.TOLERANCE_NORMAL) {
     const isPath = (/** @type {unknown} */ path) => path instanceof Float64Array
@@ -231,18 +236,66 @@ function bind(module) {
     }
     const coordinates = paths.map((path) => (Array.isArray(path) ? path.flatMap(([x, y]) => [x, y]) : [...path]));
     const points = coordinates.flat(), sizes = coordinates.map((path) => path.length / 2);
-    const handle = library.match_strokes(page, character, points, sizes, paths.length, tolerance);
-    const stroke = struct("drawn_stroke"), remark = struct("remark");
+    return readMatch(library.match_strokes(page, character, points, sizes, paths.length, tolerance), paths.length);
+  }
+
+  /**
+   * How well a character was written, up to now.
+   * @param {Handle} recording
+   * @param {number} character
+   * @param {number} [tolerance] such as constants.TOLERANCE_LENIENT
+   * @returns {Score} members of the structs, and what each pen-down wrote
+   */
+  function score(recording, character, tolerance = constants.TOLERANCE_NORMAL) {
+    const handle = library.score_recording(recording, tolerance);
     try {
-      const drawn = paths.map((_, i) => (library.match_drawn(handle, i, stroke), stroke.values()));
-      const remarks = Array.from({ length: library.match_remark_count(handle) }, (_, i) => {
-        const reason = library.match_remark(handle, i, remark);
-        return { ...remark.values(), reason };
-      });
-      return { drawn, remarks };
+      const [whole] = readAll("character_score", 1, (_, each) => library.score_character(handle, character, each));
+      const strokes = readAll("stroke_score", whole.stroke_count,
+                              (i, each) => library.score_stroke(handle, character, i, each));
+      const pen_downs = readAll("pen_down_score", whole.pen_down_count,
+                                (i, each) => library.score_pen_down(handle, character, i, each));
+      return { ...whole, strokes, pen_downs, ...readMatch(library.score_match(handle, character), pen_downs.length) };
     } finally {
-      [stroke, remark].forEach(discard);
       library.free(handle);
+    }
+  }
+
+  /**
+   * All that a match says of so many pen-downs; it is freed.
+   * @param {Handle} handle
+   * @param {number} count
+   * @returns {Match}
+   */
+  function readMatch(handle, count) {
+    try {
+      const drawn = readAll("drawn_stroke", count, (i, each) => library.match_drawn(handle, i, each));
+      /** @type {string[]} */
+      const reasons = [];
+      const remarks = readAll("remark", library.match_remark_count(handle),
+                              (i, each) => reasons.push(library.match_remark(handle, i, each)));
+      return { drawn, remarks: remarks.map((remark, i) => ({ ...remark, reason: reasons[i] })) };
+    } finally {
+      library.free(handle);
+    }
+  }
+
+  /**
+   * Copies of so many structs, each as `read` has set it.
+   * @template {keyof Structs} Name
+   * @param {Name} name
+   * @param {number} count
+   * @param {(index: number, each: Structs[Name]) => unknown} read
+   * @returns {Values<Structs[Name]>[]}
+   */
+  function readAll(name, count, read) {
+    const each = struct(name);
+    try {
+      return Array.from({ length: count }, (_, i) => {
+        read(i, each);
+        return /** @type {any} */ (each.values());
+      });
+    } finally {
+      discard(each);
     }
   }
 

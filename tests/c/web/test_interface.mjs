@@ -193,6 +193,56 @@ test("strokes are matched", () => {
   refuses(() => library.match(cross, 3, [down]), constants.INVALID_VALUE, /character = 3/);
 });
 
+/** A recording of a page on which a pen goes along some of the strokes, from their start or from their end. */
+function recordingOf(page, strokes) {
+  const recording = library.recording_create(page, 0), renderer = library.renderer_create(page, null, profile, null);
+  const sample = library.struct("device_state", { has_velocity: true }), tick = library.struct("tick");
+  const mapping = library.struct("mapping"), position = new Float64Array(3);
+  library.page_mapping(page, constants.UPRIGHT, 1, mapping);
+  const go = (x, y, z) => {
+    library.mapping_to_device(mapping, [x, y, z], position);
+    sample.position = position;
+    sample.time += 1e-3;
+    library.renderer_update(renderer, sample, tick);
+    library.recording_add(recording, tick);
+  };
+  for (const { stroke, isBackwards } of strokes) {
+    const path = library.polyline(page, 0, stroke, constants.PATH);
+    const ends = [[...path.slice(0, 2)], [...path.slice(-2)]];
+    const [from, to] = isBackwards ? ends.reverse() : ends;
+    for (let i = 0; i < 100; ++i) go(...from, 0.008);
+    for (let i = 0; i <= 300; ++i) go(...[0, 1].map((axis) => from[axis] + (to[axis] - from[axis]) * i / 300), -2e-3);
+    for (let i = 0; i < 100; ++i) go(...to, 0.008);
+  }
+  [sample, tick, mapping].forEach(library.discard);
+  library.free(renderer);
+  return recording;
+}
+
+test("what was written is scored", () => {
+  const cross = library.page_lay_out(library.set_built_in(), "十", null, null);
+  const score = library.score(recordingOf(cross, [{ stroke: 0 }, { stroke: 1 }]), 0);
+  assert.equal(String.fromCodePoint(score.code), "十");
+  assert.ok(score.fidelity > 0.95 && score.rms_error < 2e-4 && Math.abs(score.time - 0.8) < 0.05, score);
+  assert.deepEqual(score.strokes.map(({ pen_down, completed }) => [pen_down, completed]), [[0, 1], [1, 1]]);
+  assert.deepEqual(score.drawn.map(({ stroke }) => stroke), [0, 1]);
+  assert.deepEqual(score.remarks, []);
+  assert.ok(score.pen_downs[0].end < score.pen_downs[1].begin && score.pen_downs[1].smoothness < 0);
+  const swapped = library.score(recordingOf(cross, [{ stroke: 1, isBackwards: true }]), 0, constants.TOLERANCE_LENIENT);
+  assert.equal(swapped.direction_mistakes, 1);
+  assert.deepEqual(swapped.strokes.map(({ pen_down, completed }) => [pen_down, completed]), [[-1, 0], [0, 0]]);
+  assert.ok(Number.isNaN(swapped.time) && Number.isNaN(swapped.strokes[0].rms_error));
+  assert.match(swapped.remarks[0].reason, /stroke/);
+  refuses(() => library.score(recordingOf(cross, []), 1), constants.INVALID_VALUE, /character = 1/);
+  refuses(() => library.score(cross, 0), constants.INVALID_HANDLE, /a handle of a page/);
+});
+
+test("a stroke is skipped", () => {
+  const cross = library.page_lay_out(library.set_built_in(), "十", null, null);
+  const renderer = library.renderer_create(cross, null, profile, null);
+  assert.deepEqual([0, 1, 2].map(() => library.renderer_skip_stroke(renderer)), [1, 1, 0]);
+});
+
 test("what a call needed is freed", () => {
   /** The address of the next struct: where it goes depends on what else is in memory. */
   const next = () => {
@@ -202,7 +252,10 @@ test("what a call needed is freed", () => {
   };
   const path = [[0.05, 0.05], [0.05, 0.06]];
   library.match(page, 0, [path]);
+  const recording = recordingOf(page, [{ stroke: 0 }]);
+  library.score(recording, 0);
   const before = next();
+  for (let i = 0; i < 20; ++i) library.score(recording, 0);
   for (let i = 0; i < 1000; ++i) library.match(page, 0, [path]);
   for (let i = 0; i < 1000; ++i) assert.throws(() => library.struct("tick", { nothing: 1 }), TypeError);
   for (let i = 0; i < 10; ++i) library.device_write(device, [0, 0, 0]);
