@@ -335,6 +335,7 @@ begin_python_environment
 clang=$(command -v clang++ || true)
 check env CXX="$clang" scripts/full/libcxx.sh one
 check scripts/full/wasm.sh one
+check scripts/web.sh --types "$build/web"
 if compile_release; then test_build release; fi
 python_module "$build/release"
 begin_python_tests "$build/release"

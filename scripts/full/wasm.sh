@@ -33,7 +33,7 @@ cmp "$build/native.bits" "$build/wasm.bits"
 "${node[@]}" "$build/wasm/print_page.js" > "$build/wasm.page"
 scripts/full/compare_numbers.py "$build/native.page" "$build/wasm.page"
 
-scripts/web.sh "$build/web"
+scripts/web.sh --module "$build/web"
 "${node[@]}" tests/c/web/test_interface.mjs "$build/web/web"
 "${node[@]}" tests/portability/print_forces.mjs "$build/web/web" > "$build/wasm.forces"
 scripts/full/compare_numbers.py "$build/native.forces" "$build/wasm.forces"

@@ -1,0 +1,390 @@
+// A character being written: what the pen does becomes ink, hints and, at the end, a score.
+import { constants } from "../calligraphy.js";
+import { Desk, em, sheet } from "./desk.js";
+import { Brush, InkLine } from "./ink.js";
+import { colours } from "./paper.js";
+import { Recorder } from "./recorder.js";
+
+/**
+ * @typedef {"guided" | "vision" | "next" | "memory" | "watch"} ModeName
+ * @typedef {object} Settings
+ * @property {ModeName} mode
+ * @property {number} strength of the guide, from 0 to 0.8
+ * @property {number} tolerance such as constants.TOLERANCE_NORMAL
+ * @property {"guided" | "own" | "both"} ink which ink is shown
+ *
+ * @typedef {object} PenDown
+ * @property {InkLine} guided where the guided pen was
+ * @property {InkLine[]} own where the pointer was
+ * @property {boolean} isAccepted whether it finished a stroke
+ * @property {number} begin [s]
+ * @property {string} why it was refused
+ *
+ * @typedef {object} Animation
+ * @property {number} duration [ms]
+ * @property {number} [begin] [ms]
+ * @property {(share: number) => void} draw with the share of it that has passed
+ * @property {() => void} [then]
+ */
+
+/** What each mode shows, and whether it guides. */
+export const modes = {
+  guided: { name: "Guided", template: "all", hasStart: true, isGuided: true },
+  vision: { name: "Vision only", template: "all", hasStart: true, isGuided: false },
+  next: { name: "Next stroke", template: "next", hasStart: true, isGuided: true },
+  memory: { name: "From memory", template: "none", hasStart: false, isGuided: false },
+  watch: { name: "Watch", template: "all", hasStart: false, isGuided: false },
+};
+
+const missesUntilShown = 2;
+const patience = 250;  // time for which a hint must hold before it is shown [ms]
+const rest = 1000;     // time without anything to draw after which no more pictures are drawn [ms]
+const longestGap = 500;  // between two pictures: what the pen did meanwhile is not made up for beyond it [ms]
+
+/** The words for a tick's hint, without the millimetres of a page that the screen shows at another size.
+ * @param {import("../calligraphy.js").Library} library @param {import("../calligraphy_layout.mjs").Structs["tick"]} tick */
+const hintWords = (library, tick) => library.hint(tick).replace(/\d+ mm /, "");
+
+export class Lesson {
+  /** @type {Animation[]} */
+  animations = [];
+  /** @type {PenDown[]} */
+  penDowns = [];
+  /** @type {PenDown | undefined} */
+  penDown;  // while the pen is on the paper
+  recorder = new Recorder();
+  /** @type {number[]} */
+  skipped = [];  // strokes
+  misses = 0;    // of the stroke that is due
+  isWritten = false;
+
+  brush = new Brush();
+  tip = [sheet / 2, sheet / 2];  // of the guided pen [m]
+  isOnPaper = false;
+  isGuideLate = false;  // its settings have changed while the pen was on the paper
+  hint = { kind: 0, text: "", since: 0 };  // why the pen is not guided, and since when [ms]
+
+  /** @type {InkLine[]} */
+  own = [];  // since the last lift
+  ownBrush = new Brush();
+  /** @type {[number, number]} */
+  ownAt = [sheet / 2, sheet / 2];  // where the pointer was last on the paper [m]
+  ownTime = 0;                     // and when [ms]
+  isDown = false;                  // the pointer
+  /** @type {number | undefined} */
+  pressure;
+
+  isOpen = true;
+  isAwake = false;
+  time = 0;          // of the last tick [ms], as performance.now()
+  lastActivity = 0;  // [ms]
+  marks = () => {};  // draws what a remark points at
+
+  /**
+   * @param {import("../calligraphy.js").Library} library
+   * @param {number} set
+   * @param {string} character
+   * @param {Settings} settings
+   * @param {import("./paper.js").Paper} paper
+   * @param {import("./pointer.js").Pointer} pointer
+   * @param {{hint(text: string, x: number, y: number): void, changed(lesson: Lesson): void,
+   *          written(lesson: Lesson): void}} display what else shows how it goes
+   */
+  constructor(library, set, character, settings, paper, pointer, display) {
+    this.library = library;
+    this.character = character;
+    this.settings = settings;
+    this.paper = paper;
+    this.pointer = pointer;
+    this.display = display;
+    this.desk = new Desk(library, set, character);
+    this.#guide();
+    display.hint("", 0, 0);
+    display.changed(this);
+    paper.clear("marks");
+    this.redraw();
+    if (settings.mode === "watch") this.#watch();
+  }
+
+  /** Ends it: nothing is drawn any more. */
+  close() {
+    this.isOpen = false;
+    this.desk.free();
+  }
+
+  /** Takes other settings, but for the mode. @param {Settings} settings */
+  change(settings) {
+    this.settings = settings;
+    this.#guide();
+    this.redraw();
+  }
+
+  get mode() {
+    return modes[this.settings.mode];
+  }
+
+  /** Passes over the stroke that is due. */
+  skip() {
+    const stroke = this.desk.due;
+    if (this.isWritten || !this.desk.skip()) return;
+    this.skipped.push(stroke);
+    this.animations = [];
+    this.#strokeIsOver();
+    this.paper.fillStroke("ink", this.desk.strokes[stroke], colours.skipped);
+    if (this.desk.due === this.desk.strokes.length) this.#finish();
+    this.wake();
+  }
+
+  /** Shows what a remark is about until the next call. @param {() => void} marks draws on the layer of marks */
+  point(marks) {
+    this.marks = marks;
+    this.wake();
+  }
+
+  /** The pen-down during which a time was [s]. @param {number} time */
+  penDownAt(time) {
+    return this.penDowns.findLast(({ begin }) => begin <= time + 1e-6);
+  }
+
+  /** Draws from now on, until nothing changes. */
+  wake() {
+    this.lastActivity = performance.now();
+    if (this.isAwake) return;
+    this.isAwake = true;
+    this.time = this.lastActivity;
+    requestAnimationFrame((now) => this.#picture(now));
+  }
+
+  redraw() {
+    this.#drawSheet();
+    this.#drawInk();
+    this.paper.clear("pen");
+    if (this.penDown) this.#drawLines("pen", { ...this.penDown, own: this.own }, true);
+    this.wake();
+  }
+
+  /** The grid, and of the template what the mode shows. */
+  #drawSheet() {
+    const { paper } = this, { template } = this.mode;
+    paper.drawGrid();
+    this.desk.strokes.forEach((stroke, i) => {
+      const isDue = i === this.desk.due && this.settings.mode !== "watch";
+      const isShown = this.misses >= missesUntilShown && isDue;
+      if (template === "all" || (template === "next" && isDue) || isShown) {
+        paper.fillStroke("sheet", stroke, isDue ? colours.due : colours.template);
+      }
+    });
+  }
+
+  /** The ink that stays. */
+  #drawInk() {
+    this.paper.clear("ink");
+    for (const stroke of this.skipped) this.paper.fillStroke("ink", this.desk.strokes[stroke], colours.skipped);
+    for (const penDown of this.penDowns) if (penDown.isAccepted) this.#drawLines("ink", penDown, true);
+  }
+
+  #guide() {
+    const { settings, mode } = this;
+    if (!this.isOnPaper) this.desk.guide(mode.isGuided ? settings.strength : 0, settings.tolerance);
+    this.isGuideLate = this.isOnPaper;  // the pen is not disturbed while it writes
+  }
+
+  /** @param {number} now */
+  #picture(now) {
+    if (!this.isOpen) return;
+    if (now - this.time > longestGap) this.time = now - longestGap;
+    while (this.time < now) {
+      this.time += 1;
+      this.#takeSamples();
+      this.#advance();
+    }
+    this.#draw(now);
+    const isBusy = this.isOnPaper || this.isDown || this.animations.length > 0;
+    this.isAwake = isBusy || now - this.lastActivity < rest;
+    if (this.isAwake) requestAnimationFrame((next) => this.#picture(next));
+  }
+
+  #takeSamples() {
+    for (let sample = this.pointer.take(this.time); sample; sample = this.pointer.take(this.time)) {
+      if (this.settings.mode === "watch") continue;
+      const begins = sample.isDown && !this.isDown;
+      if (begins) {
+        this.own.push(new InkLine());
+        this.ownBrush = new Brush();
+        this.marks = () => {};
+      }
+      if (sample.isDown) {
+        const seconds = begins ? 0 : Math.max(1e-3, (sample.time - this.ownTime) * 1e-3);
+        const way = Math.hypot(sample.x - this.ownAt[0], sample.y - this.ownAt[1]);
+        const width = this.ownBrush.press(sample.pressure, seconds > 0 ? way / seconds : 0, seconds);
+        this.own.at(-1)?.add(sample.x, sample.y, width, this.paper.pixel);
+        this.ownAt = [sample.x, sample.y];
+        this.ownTime = sample.time;
+      }
+      this.isDown = sample.isDown;
+      this.pressure = sample.isDown ? sample.pressure : 0;  // a pen that is lifted leaves a thin end
+      this.desk.move(sample.x, sample.y, sample.isDown);
+    }
+  }
+
+  #advance() {
+    const { desk, brush } = this, before = desk.due;
+    const tick = desk.advance(), [x, y] = tick.pen_tip, { events } = tick;
+    const isOnPaper = tick.state !== constants.SEPARATION;
+    if (events & constants.CONTACT) this.#putDown(tick.time);
+    if (isOnPaper && this.penDown) {
+      const speed = Math.hypot(x - this.tip[0], y - this.tip[1]) * 1000;
+      this.penDown.guided.add(x, y, brush.press(this.pressure, speed, 1e-3), 0.7 * this.paper.pixel);
+    }
+    if (isOnPaper || events !== 0) this.recorder.add(tick, this.ownAt);
+    this.tip = [x, y];
+    this.isOnPaper = isOnPaper;
+    this.#readHint(tick);
+    if (this.penDown) {
+      if (events & constants.STROKE_FINISHED) this.penDown.isAccepted = true;
+      if (events & constants.STROKE_ABANDONED && !isOnPaper) this.penDown.why = "lifted before the end of the stroke";
+    }
+    if (events & constants.LIFT) this.#lift();
+    if (desk.due !== before) this.#strokeIsOver();
+  }
+
+  /** Another one is due. */
+  #strokeIsOver() {
+    this.misses = 0;
+    this.#drawSheet();
+    this.display.changed(this);
+  }
+
+  /** @param {number} begin [s] */
+  #putDown(begin) {
+    this.animations = [];
+    this.brush = new Brush();
+    this.penDown = { guided: new InkLine(), own: [], isAccepted: false, begin, why: "" };
+    this.penDowns.push(this.penDown);
+  }
+
+  #lift() {
+    const { penDown } = this;
+    this.penDown = undefined;
+    if (!penDown) return;
+    const isDown = this.isDown ? 1 : 0;  // that of the next stroke already
+    penDown.own = this.own.splice(0, this.own.length - isDown);
+    this.paper.clear("pen");
+    if (penDown.isAccepted) {
+      this.#drawLines("ink", penDown, true);
+      if (this.desk.due === this.desk.strokes.length) this.#finish();
+    } else if (!this.isWritten) {
+      this.#refuse(penDown);
+    }
+    if (this.isGuideLate) this.#guide();
+  }
+
+  /** @param {PenDown} penDown */
+  #refuse(penDown) {
+    ++this.misses;
+    const [x, y] = this.tip, shows = this.misses >= missesUntilShown;
+    this.#fade(penDown);
+    this.#flash(this.desk.strokes[this.desk.due], () => shows && this.#demonstrate(this.desk.due));
+    this.display.hint(penDown.why || "write on, in the direction of the arrow", x, y);
+    if (shows) this.#drawSheet();
+    this.display.changed(this);
+  }
+
+  #finish() {
+    this.isWritten = true;
+    this.display.changed(this);
+    this.display.written(this);
+  }
+
+  /** @param {import("../calligraphy_layout.mjs").Structs["tick"]} tick */
+  #readHint(tick) {
+    const kind = tick.hint === constants.HINT_WRITE ? constants.HINT_NONE : tick.hint;
+    if (kind !== this.hint.kind) {
+      this.hint = { kind, text: hintWords(this.library, tick), since: this.time };
+      const isWhy = kind !== constants.HINT_NONE && kind !== constants.HINT_LIFT_FIRST;
+      if (this.penDown && isWhy) this.penDown.why = this.hint.text;
+    }
+    const [x, y] = this.tip;
+    if (kind !== constants.HINT_NONE && this.time - this.hint.since === patience) this.display.hint(this.hint.text, x, y);
+  }
+
+  /** @param {number} now */
+  #draw(now) {
+    const { paper, penDown } = this;
+    if (penDown) this.#drawLines("pen", { ...penDown, own: this.own }, false);
+    paper.clear("marks");
+    const due = this.desk.strokes[this.desk.due];
+    if (this.mode.hasStart && due && !(penDown && !penDown.isAccepted)) paper.markStart(due);
+    this.#playAnimations(now);
+    this.marks();
+    if (this.settings.mode !== "watch" && !this.isWritten) paper.markPen(this.tip[0], this.tip[1], this.isOnPaper);
+  }
+
+  /** The ink that is to be seen of a pen-down. @param {"ink" | "pen"} layer
+   * @param {{guided: InkLine, own: InkLine[]}} penDown @param {boolean} isWhole */
+  #drawLines(layer, { guided, own }, isWhole) {
+    const context = this.paper.contexts[layer], { ink } = this.settings;
+    const draw = (/** @type {InkLine} */ line, /** @type {string} */ colour, share = 1) =>
+      (isWhole ? line.drawAll(context, colour, share) : line.drawOn(context, colour, share));
+    if (ink !== "own") draw(guided, colours.ink);
+    if (ink === "own") for (const line of own) draw(line, colours.ink);
+    if (ink === "both") for (const line of own) draw(line, colours.own, 0.25);
+  }
+
+  /** Ink that was refused goes away. @param {PenDown} penDown */
+  #fade(penDown) {
+    this.#animate(500, (share) => {
+      const context = this.paper.contexts.marks;
+      context.globalAlpha = 0.6 * (1 - share);
+      penDown.guided.drawAll(context, colours.wrong);
+      context.globalAlpha = 1;
+    });
+  }
+
+  /** @param {import("./desk.js").Stroke} stroke @param {() => void} then */
+  #flash(stroke, then) {
+    this.#animate(900, (share) => {
+      const context = this.paper.contexts.marks;
+      context.globalAlpha = Math.sin(2 * Math.PI * share) ** 2;
+      this.paper.fillStroke("marks", stroke, colours.flash);
+      context.globalAlpha = 1;
+    }, then);
+  }
+
+  /** Writes a stroke on the layer of marks. @param {number} index @param {() => void} [then] */
+  #demonstrate(index, then) {
+    const stroke = this.desk.strokes[index];
+    this.#animate(250 + (400 * stroke.length) / em, (share) => {
+      this.paper.fillBeginning("marks", stroke, then ? colours.ink : colours.flash, share);
+    }, then);
+  }
+
+  /** Writes all strokes, one after the other. */
+  #watch(index = 0) {
+    const { strokes } = this.desk;
+    if (index === strokes.length) return;
+    this.#demonstrate(index, () => {
+      this.paper.fillStroke("ink", strokes[index], colours.ink);
+      this.#animate(200, () => {}, () => this.#watch(index + 1));
+    });
+  }
+
+  /** @param {number} duration [ms] @param {(share: number) => void} draw @param {() => void} [then] */
+  #animate(duration, draw, then) {
+    this.animations.push({ duration, draw, then });
+    this.wake();
+  }
+
+  /** @param {number} now */
+  #playAnimations(now) {
+    const playing = this.animations;
+    const ended = playing.filter((animation) => {
+      animation.begin ??= now;
+      const share = Math.min(1, (now - animation.begin) / animation.duration);
+      animation.draw(share);
+      return share === 1;
+    });
+    this.animations = playing.filter((animation) => !ended.includes(animation));
+    for (const { then } of ended) then?.();
+  }
+}

@@ -1,0 +1,130 @@
+// The page: what is chosen, and how it goes.
+import { constants, load } from "../calligraphy.js";
+import { openCharacters } from "./characters.js";
+import { Lesson, modes } from "./lesson.js";
+import { Paper } from "./paper.js";
+import { Pointer } from "./pointer.js";
+import { showResult } from "./result.js";
+
+const begun = performance.now();
+const find = (/** @type {string} */ id) => /** @type {HTMLElement} */ (document.getElementById(id));
+const input = (/** @type {string} */ id) => /** @type {HTMLInputElement} */ (document.getElementById(id));
+
+/** Buttons of which one is chosen. @param {string} id @param {Record<string, string>} names @param {string} chosen
+ * @param {(value: string) => void} choose */
+function offer(id, names, chosen, choose) {
+  for (const [value, name] of Object.entries(names)) {
+    const label = document.createElement("label"), radio = document.createElement("input");
+    Object.assign(radio, { type: "radio", name: id, value, checked: value === chosen });
+    radio.addEventListener("change", () => choose(value));
+    label.append(radio, name);
+    find(id).append(label);
+  }
+}
+
+async function main() {
+  const library = await load();
+  const { set, characters, isImported } = await openCharacters(library);
+  const hint = find("hint"), paperElement = find("paper"), result = find("result");
+  const paper = new Paper(paperElement, () => lesson.redraw());
+  const pointer = new Pointer(paperElement, paper, () => lesson.wake());
+  let settings = /** @type {import("./lesson.js").Settings} */ (
+    { mode: "guided", strength: 0.6, tolerance: constants.TOLERANCE_NORMAL, ink: "guided" });
+  let task = 0;  // number of the last one that the worker was given
+  let lesson = /** @type {Lesson} */ (/** @type {unknown} */ (undefined));  // begun below
+
+  /** Words beside the pen, for a while. @param {string} text @param {number} x @param {number} y */
+  function showHint(text, x, y) {
+    hint.hidden = text === "";
+    hint.textContent = text;
+    const [left, top] = paper.onScreen(x, y), goal = lesson?.desk.strokes[lesson.desk.due];
+    hint.style.left = `${Math.min(Math.max(left, 90), paperElement.clientWidth - 90)}px`;
+    const isBelow = goal ? goal.start[1] > y : top < 80;  // so that it does not hide where to begin
+    hint.style.top = `${isBelow ? top + 28 : top - 68}px`;
+    hint.classList.remove("passing");
+    void hint.offsetWidth;  // begins the animation anew
+    hint.classList.add("passing");
+  }
+
+  /** @param {Lesson} lesson */
+  function showProgress({ desk, misses, isWritten, mode, settings }) {
+    const isWatched = settings.mode === "watch", count = desk.strokes.length;
+    find("progress").textContent = isWatched ? `${count} strokes` : isWritten ? "Written"
+      : `Stroke ${desk.due + 1} of ${count}`;
+    input("skip").disabled = isWritten || isWatched;
+    find("skip").classList.toggle("offered", misses >= 2);
+    find("strength").closest("label")?.toggleAttribute("hidden", !mode.isGuided);
+    if (!isWritten) result.hidden = true;
+  }
+
+  const worker = new Worker(new URL("score_worker.js", import.meta.url), { type: "module" });
+  /** @param {Lesson} lesson */
+  function judge({ character, settings: { tolerance }, recorder }) {
+    const recorded = recorder.copy();
+    worker.postMessage({ id: ++task, character, tolerance, recorded }, [recorded.buffer]);
+  }
+  worker.onmessage = ({ data }) => {
+    if (data.id === task && lesson.isWritten) showResult(result, lesson, data);
+  };
+
+  /** @param {string} character */
+  function begin(character) {
+    task += 1;  // what the worker still says is of another one
+    find("character").textContent = character;
+    document.title = `${character} · Calligraphy`;
+    if (decodeURIComponent(location.hash.slice(1)) !== character) history.replaceState(null, "", `#${character}`);
+    lesson?.close();
+    lesson = new Lesson(library, set, character, settings, paper, pointer,
+                        { hint: showHint, changed: showProgress, written: judge });
+  }
+
+  /** @param {Partial<import("./lesson.js").Settings>} changed */
+  function change(changed) {
+    settings = { ...settings, ...changed };
+    if (changed.mode) begin(lesson.character);
+    else lesson.change(settings);
+  }
+
+  function beginAsked() {
+    const asked = decodeURIComponent(location.hash.slice(1));
+    begin(characters.includes(asked) ? asked : characters[0]);
+    if (asked && asked !== lesson.character) find("progress").textContent = `${asked} is not among these characters`;
+  }
+
+  offer("modes", Object.fromEntries(Object.entries(modes).map(([mode, { name }]) => [mode, name])), "guided",
+        (mode) => change({ mode: /** @type {import("./lesson.js").ModeName} */ (mode) }));
+  offer("ink", { guided: "Guided ink", own: "My own ink", both: "Both" }, "guided",
+        (ink) => change({ ink: /** @type {"guided" | "own" | "both"} */ (ink) }));
+  for (const [value, name] of [[constants.TOLERANCE_LENIENT, "lenient"], [constants.TOLERANCE_NORMAL, "normal"],
+                               [constants.TOLERANCE_STRICT, "strict"]]) {
+    input("tolerance").append(new Option(String(name), String(value), value === 0, value === 0));
+  }
+  input("tolerance").addEventListener("change", () => change({ tolerance: Number(input("tolerance").value) }));
+  const changeStrength = () => {
+    find("strength-shown").textContent = `${input("strength").value} %`;
+    change({ strength: Number(input("strength").value) / 100 });
+  };
+  input("strength").addEventListener("input", changeStrength);
+  find("again").addEventListener("click", () => begin(lesson.character));
+  find("skip").addEventListener("click", () => lesson.skip());
+  find("next").addEventListener("click", () => {
+    begin(characters[(characters.indexOf(lesson.character) + 1) % characters.length]);
+  });
+  for (const character of characters) {
+    const button = document.createElement("button");
+    button.textContent = character;
+    button.addEventListener("click", () => begin(character));
+    find("characters").append(button);
+  }
+  find("source").hidden = !isImported;
+  window.addEventListener("hashchange", beginAsked);
+  beginAsked();
+  changeStrength();
+  performance.measure("ready", { start: 0, end: performance.now() });
+  document.body.dataset.ready = String(Math.round(performance.now() - begun));
+}
+
+main().catch((error) => {
+  find("progress").textContent = `The page cannot begin: ${error.message}`;
+  throw error;
+});

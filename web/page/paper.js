@@ -1,0 +1,168 @@
+// The sheet of paper on the screen: four canvases on top of each other, so that only what changes is drawn anew.
+import { em, margin, sheet } from "./desk.js";
+
+/** @typedef {import("./desk.js").Stroke} Stroke */
+/** @typedef {"sheet" | "ink" | "pen" | "marks"} Layer what is printed, ink that stays, ink of this pen-down, and marks */
+
+export const colours = {
+  paper: "#fffdf7", grid: "#d9a39a", template: "#dfe3ea", due: "#b9c7de", ink: "#1d1a18", own: "#2f7fb8", start: "#d3372c",
+  flash: "#f0a23c", skipped: "#b9b4ac", wrong: "#d3372c",
+};
+
+/** The path of a polyline, closed if it is an outline. @param {Float64Array} points @param {boolean} closed */
+export function pathOf(points, closed) {
+  const path = new Path2D();
+  for (let i = 0; i < points.length; i += 2) path.lineTo(points[i], points[i + 1]);
+  if (closed) path.closePath();
+  return path;
+}
+
+export class Paper {
+  /**
+   * @param {HTMLElement} element in which the canvases are put
+   * @param {() => void} redraw draws all layers anew, when the size has changed
+   */
+  constructor(element, redraw) {
+    this.element = element;
+    this.contexts = /** @type {Record<Layer, CanvasRenderingContext2D>} */ ({});
+    for (const layer of /** @type {Layer[]} */ (["sheet", "ink", "pen", "marks"])) {
+      const canvas = document.createElement("canvas");
+      element.append(canvas);
+      this.contexts[layer] = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    }
+    this.pixels = 0;  // of the width and the height
+    this.#resize();
+    new ResizeObserver(() => { if (this.#resize()) redraw(); }).observe(element);
+  }
+
+  /** Width of a pixel of the screen [m, page]. */
+  get pixel() {
+    return sheet / this.pixels;
+  }
+
+  /** Where an event is on the page [m]. @param {PointerEvent} event @param {DOMRect} box of the element */
+  place(event, box) {
+    return { x: (sheet * (event.clientX - box.left)) / box.width, y: sheet * (1 - (event.clientY - box.top) / box.height) };
+  }
+
+  /** Where a place on the page is in the element [CSS pixels]. @param {number} x @param {number} y */
+  onScreen(x, y) {
+    const width = this.element.clientWidth;
+    return [(width * x) / sheet, width * (1 - y / sheet)];
+  }
+
+  /** @param {Layer} layer */
+  clear(layer) {
+    this.contexts[layer].clearRect(0, 0, sheet, sheet);
+  }
+
+  /** 米字格: the square of the character, divided in eight. */
+  drawGrid() {
+    const context = this.contexts.sheet;
+    context.fillStyle = colours.paper;
+    context.fillRect(0, 0, sheet, sheet);
+    context.strokeStyle = colours.grid;
+    context.lineWidth = em / 160;
+    context.strokeRect(margin, margin, em, em);
+    context.lineWidth = em / 320;
+    context.setLineDash([em / 60, em / 80]);
+    const near = margin, far = margin + em, middle = sheet / 2;
+    context.beginPath();
+    for (const [x0, y0, x1, y1] of [[near, near, far, far], [near, far, far, near], [near, middle, far, middle],
+                                    [middle, near, middle, far]]) {
+      context.moveTo(x0, y0);
+      context.lineTo(x1, y1);
+    }
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  /** @param {Layer} layer @param {Stroke} stroke @param {string} colour */
+  fillStroke(layer, stroke, colour) {
+    const context = this.contexts[layer];
+    context.fillStyle = colour;
+    context.fill(pathOf(stroke.outline, true));
+  }
+
+  /** The beginning of a stroke, as far as `share` of its length. @param {Layer} layer @param {Stroke} stroke
+   * @param {string} colour @param {number} share */
+  fillBeginning(layer, stroke, colour, share) {
+    const context = this.contexts[layer], { path } = stroke;
+    context.save();
+    context.clip(pathOf(stroke.outline, true));
+    context.strokeStyle = colour;
+    context.lineJoin = context.lineCap = "round";
+    context.lineWidth = em / 4;  // wider than any ink
+    context.setLineDash([Math.max(share * stroke.length, 1e-9), 2 * stroke.length + em]);
+    context.stroke(pathOf(path, false));
+    context.restore();
+  }
+
+  /** Where a stroke begins, and in which direction. @param {Stroke} stroke */
+  markStart({ start: [x, y], direction: [dx, dy] }) {
+    const context = this.contexts.marks;
+    context.save();
+    context.translate(x, y);
+    context.rotate(Math.atan2(dy, dx));
+    context.strokeStyle = context.fillStyle = colours.start;
+    context.lineWidth = em / 150;
+    context.beginPath();
+    context.ellipse(0, 0, em / 22, em / 34, 0, 0, 2 * Math.PI);
+    context.globalAlpha = 0.25;
+    context.fill();
+    context.globalAlpha = 1;
+    context.stroke();
+    if (dx !== 0 || dy !== 0) {
+      const [from, tip, half] = [em / 22, em / 7, em / 60];
+      context.beginPath();
+      context.moveTo(from, 0);
+      context.lineTo(tip, 0);
+      context.moveTo(tip - 1.6 * half, half);
+      context.lineTo(tip, 0);
+      context.lineTo(tip - 1.6 * half, -half);
+      context.stroke();
+    }
+    context.restore();
+  }
+
+  /** The pen above the paper or on it. @param {number} x @param {number} y @param {boolean} isDown */
+  markPen(x, y, isDown) {
+    const context = this.contexts.marks;
+    context.fillStyle = colours.ink;
+    context.globalAlpha = isDown ? 0.9 : 0.35;
+    context.beginPath();
+    context.arc(x, y, em / (isDown ? 110 : 80), 0, 2 * Math.PI);
+    context.fill();
+    context.globalAlpha = 1;
+  }
+
+  /** A number in a circle. @param {number} x @param {number} y @param {number} number @param {string} colour */
+  markNumber(x, y, number, colour) {
+    const context = this.contexts.marks, radius = em / 26;
+    context.fillStyle = colour;
+    context.beginPath();
+    context.arc(x, y, radius, 0, 2 * Math.PI);
+    context.fill();
+    context.save();
+    context.translate(x, y);
+    context.scale(radius / 100, -radius / 100);  // text is upright where y points down
+    context.fillStyle = "white";
+    context.font = "bold 130px system-ui, sans-serif";
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    context.fillText(String(number), 0, 6);
+    context.restore();
+  }
+
+  /** @returns {boolean} whether it changed */
+  #resize() {
+    const wanted = Math.max(1, Math.round(this.element.clientWidth * Math.min(window.devicePixelRatio || 1, 3)));
+    if (wanted === this.pixels) return false;
+    this.pixels = wanted;
+    for (const context of Object.values(this.contexts)) {
+      context.canvas.width = context.canvas.height = wanted;
+      context.setTransform(wanted / sheet, 0, 0, -wanted / sheet, 0, wanted);  // metres on the page, y upwards
+    }
+    return true;
+  }
+}

@@ -1,0 +1,71 @@
+// What a mouse, a finger or the pen of a tablet does on the paper, at the times at which it did it.
+
+/**
+ * @typedef {object} PointerSample
+ * @property {number} time [ms], as performance.now()
+ * @property {number} x [m, page]
+ * @property {number} y [m, page]
+ * @property {boolean} isDown whether it writes
+ * @property {number | undefined} pressure from 0 to 1; undefined: it does not measure it
+ */
+
+export class Pointer {
+  /**
+   * @param {HTMLElement} element
+   * @param {import("./paper.js").Paper} paper
+   * @param {() => void} wake is called at each event
+   */
+  constructor(element, paper, wake) {
+    this.samples = /** @type {PointerSample[]} */ ([]);  // that were not taken yet
+    this.paper = paper;
+    this.wake = wake;
+    this.id = /** @type {number | undefined} */ (undefined);  // of the pointer that is down
+    this.hasPen = false;  // has been seen: the hand that holds it is no finger that writes
+    element.addEventListener("pointerdown", (event) => this.#begin(event));
+    element.addEventListener("pointermove", (event) => this.#move(event));
+    for (const type of /** @type {const} */ (["pointerup", "pointercancel"])) {
+      element.addEventListener(type, (event) => this.#end(event));
+    }
+    element.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });  // no scrolling
+    element.addEventListener("contextmenu", (event) => event.preventDefault());
+  }
+
+  /** The next sample, unless it is later than this [ms]. @param {number} time */
+  take(time) {
+    return this.samples.length > 0 && this.samples[0].time <= time ? this.samples.shift() : undefined;
+  }
+
+  /** @param {PointerEvent} event */
+  #begin(event) {
+    if (event.pointerType === "pen") this.hasPen = true;
+    const isFinger = event.pointerType === "touch";
+    if (this.id !== undefined || event.button !== 0 || (isFinger && (this.hasPen || !event.isPrimary))) return;
+    this.id = event.pointerId;
+    /** @type {HTMLElement} */ (event.currentTarget).setPointerCapture(event.pointerId);
+    this.#add([event], true);
+  }
+
+  /** @param {PointerEvent} event */
+  #move(event) {
+    if (this.id !== undefined ? event.pointerId !== this.id : !event.isPrimary) return;
+    const coalesced = event.getCoalescedEvents?.() ?? [];
+    this.#add(coalesced.length > 0 ? coalesced : [event], this.id !== undefined);
+  }
+
+  /** @param {PointerEvent} event */
+  #end(event) {
+    if (event.pointerId !== this.id) return;
+    this.id = undefined;
+    this.#add([event], false);
+  }
+
+  /** @param {PointerEvent[]} events @param {boolean} isDown */
+  #add(events, isDown) {
+    const box = this.paper.element.getBoundingClientRect();
+    for (const event of events) {
+      const pressure = event.pointerType === "pen" && event.pressure > 0 ? event.pressure : undefined;
+      this.samples.push({ time: event.timeStamp, ...this.paper.place(event, box), isDown, pressure });
+    }
+    this.wake();
+  }
+}

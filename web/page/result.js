@@ -1,0 +1,88 @@
+// The score of a character, and the remarks, each of which points at its place on the paper.
+import { em } from "./desk.js";
+import { colours } from "./paper.js";
+
+/** @typedef {import("./score_worker.js").Score} Score */
+
+const percent = (/** @type {number} */ share) => (Number.isNaN(share) ? "–" : `${Math.round(100 * share)} %`);
+const ofSquare = (/** @type {number} */ metres) =>
+  (Number.isNaN(metres) ? "–" : `${((100 * metres) / em).toFixed(1)} % of the square`);
+
+/**
+ * Shows a score.
+ * @param {HTMLElement} element in which it is shown
+ * @param {import("./lesson.js").Lesson} lesson
+ * @param {import("./score_worker.js").Judgement} judgement
+ */
+export function showResult(element, lesson, { guided, own }) {
+  const isGuided = lesson.mode.isGuided && lesson.settings.strength > 0;
+  const rows = [
+    ["Off the strokes", ofSquare(guided.rms_error), isGuided ? `your hand alone: ${ofSquare(own.rms_error)}` : ""],
+    ["Written of them", percent(guided.coverage), ""],
+    ["In order", percent(guided.external_sequence), ""],
+    ["In the right direction", percent(guided.internal_sequence), ""],
+    ["Time", Number.isNaN(guided.time) ? "–" : `${guided.time.toFixed(1)} s`, ""],
+  ];
+  const score = create("p", "score", String(Math.round(100 * guided.fidelity)));
+  score.append(create("small", "", " of 100"));
+  const table = create("table");
+  for (const [name, value, more] of rows) {
+    const row = create("tr"), cell = create("td", "", value);
+    if (more) cell.append(create("small", "", more));
+    row.append(create("th", "", name), cell);
+    table.append(row);
+  }
+  element.replaceChildren(score, table, remarksOf(lesson, guided));
+  element.hidden = false;
+  lesson.point(() => markRemarks(lesson, guided));
+}
+
+/** @param {import("./lesson.js").Lesson} lesson @param {Score} score */
+function remarksOf(lesson, score) {
+  if (score.remarks.length === 0) return create("p", "praise", "No mistakes of order, direction or shape.");
+  const list = create("ol", "remarks");
+  score.remarks.forEach((remark, i) => {
+    const item = create("li"), button = create("button", "", remark.reason);
+    const show = () => lesson.point(() => markRemarks(lesson, score, i));
+    for (const event of ["pointerenter", "focus", "click"]) button.addEventListener(event, show);
+    for (const event of ["pointerleave", "blur"]) {
+      button.addEventListener(event, () => lesson.point(() => markRemarks(lesson, score)));
+    }
+    item.append(button);
+    list.append(item);
+  });
+  return list;
+}
+
+/**
+ * Numbers on the paper; of one remark, also what it is about.
+ * @param {import("./lesson.js").Lesson} lesson @param {Score} score @param {number} [chosen] index of a remark
+ */
+function markRemarks(lesson, score, chosen) {
+  const { paper, desk } = lesson, context = paper.contexts.marks;
+  const taken = /** @type {[number, number][]} */ ([]);
+  score.remarks.forEach(({ path, stroke }, i) => {
+    const penDown = path >= 0 ? lesson.penDownAt(score.pen_downs[path].begin) : undefined;
+    const template = desk.strokes[stroke];
+    if (i === chosen) {
+      context.globalAlpha = 0.45;
+      if (template) paper.fillStroke("marks", template, colours.flash);
+      context.globalAlpha = 0.8;
+      penDown?.guided.drawAll(context, colours.wrong);
+      context.globalAlpha = 1;
+    }
+    const first = penDown?.guided.points[0];
+    let [x, y] = first ? [first.x, first.y] : template.start;
+    while (taken.some(([a, b]) => Math.hypot(a - x, b - y) < em / 13)) x += em / 13;
+    taken.push([x, y]);
+    paper.markNumber(x, y, i + 1, i === chosen ? colours.wrong : "#8a8076");
+  });
+}
+
+/** @param {string} tag @param {string} [kind] its class @param {string} [text] */
+function create(tag, kind = "", text = "") {
+  const element = document.createElement(tag);
+  if (kind) element.className = kind;
+  element.textContent = text;
+  return element;
+}

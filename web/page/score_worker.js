@@ -1,0 +1,38 @@
+// Judges what was written, in a thread of its own: a long character takes longer than a picture may.
+import { load } from "../calligraphy.js";
+import { openCharacters } from "./characters.js";
+import { layOut } from "./desk.js";
+import { replay } from "./recorder.js";
+
+/**
+ * @typedef {object} Task
+ * @property {number} id
+ * @property {string} character
+ * @property {number} tolerance
+ * @property {Float64Array} recorded by a Recorder
+ *
+ * @typedef {object} Judgement
+ * @property {number} id of the task
+ * @property {Score} guided of where the pen was
+ * @property {Score} own of where the pointer was
+ *
+ * @typedef {ReturnType<import("../calligraphy.js").Library["score"]>} Score
+ */
+
+const ready = load().then(async (library) => ({ library, characters: await openCharacters(library) }));
+
+self.onmessage = async (/** @type {MessageEvent<Task>} */ { data }) => {
+  const { library, characters } = await ready;
+  const page = layOut(library, characters.set, data.character);
+  const tick = library.struct("tick");
+  const score = (/** @type {boolean} */ isOwn) => {
+    const recording = library.recording_create(page, 1000);
+    replay(data.recorded, tick, isOwn, () => library.recording_add(recording, tick));
+    const result = library.score(recording, 0, data.tolerance);
+    library.free(recording);
+    return result;
+  };
+  self.postMessage({ id: data.id, guided: score(false), own: score(true) });
+  library.discard(tick);
+  library.free(page);
+};
