@@ -29,7 +29,7 @@ async function main() {
   const paper = new Paper(paperElement, () => lesson.redraw());
   const pointer = new Pointer(paperElement, paper, () => lesson.wake());
   let settings = /** @type {import("./lesson.js").Settings} */ (
-    { mode: "guided", strength: 0.6, tolerance: constants.TOLERANCE_NORMAL, ink: "guided" });
+    { mode: "guided", strength: 0.6, tolerance: constants.TOLERANCE_LENIENT, ink: "guided" });
   let task = 0;  // number of the last one that the worker was given
   let lesson = /** @type {Lesson} */ (/** @type {unknown} */ (undefined));  // begun below
 
@@ -97,7 +97,7 @@ async function main() {
         (ink) => change({ ink: /** @type {"guided" | "own" | "both"} */ (ink) }));
   for (const [value, name] of [[constants.TOLERANCE_LENIENT, "lenient"], [constants.TOLERANCE_NORMAL, "normal"],
                                [constants.TOLERANCE_STRICT, "strict"]]) {
-    input("tolerance").append(new Option(String(name), String(value), value === 0, value === 0));
+    input("tolerance").append(new Option(String(name), String(value)));
   }
   input("tolerance").addEventListener("change", () => change({ tolerance: Number(input("tolerance").value) }));
   const changeStrength = () => {

@@ -138,7 +138,7 @@ export class Paper {
 
   /** A number in a circle. @param {number} x @param {number} y @param {number} number @param {string} colour */
   markNumber(x, y, number, colour) {
-    const context = this.contexts.marks, radius = em / 26;
+    const context = this.contexts.marks, radius = em / 32;
     context.fillStyle = colour;
     context.beginPath();
     context.arc(x, y, radius, 0, 2 * Math.PI);

@@ -17,11 +17,11 @@ const ofSquare = (/** @type {number} */ metres) =>
 export function showResult(element, lesson, { guided, own }) {
   const isGuided = lesson.mode.isGuided && lesson.settings.strength > 0;
   const rows = [
+    ["Strokes", `${guided.strokes_completed} of ${guided.stroke_count}`, `${percent(guided.coverage)} of their length`],
     ["Off the strokes", ofSquare(guided.rms_error), isGuided ? `your hand alone: ${ofSquare(own.rms_error)}` : ""],
-    ["Written of them", percent(guided.coverage), ""],
     ["In order", percent(guided.external_sequence), ""],
     ["In the right direction", percent(guided.internal_sequence), ""],
-    ["Time", Number.isNaN(guided.time) ? "–" : `${guided.time.toFixed(1)} s`, ""],
+    ["Time", Number.isNaN(guided.time) ? "not completed" : `${guided.time.toFixed(1)} s`, ""],
   ];
   const score = create("p", "score", String(Math.round(100 * guided.fidelity)));
   score.append(create("small", "", " of 100"));
