@@ -23,4 +23,6 @@ In $PWD/out:
 A picture leaves out attempts that were abandoned. Other characters, and what force changes over 20 pairs of trials:
   build/tools/calligraphy write 永 --repeat 20 --out yong
 The program, task by task: docs/program.md
+To write yourself, with a mouse, a finger or a pen, in a browser:
+  scripts/web.sh --serve
 END

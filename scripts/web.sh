@@ -113,5 +113,5 @@ build_page
 print_sizes $(find web/dist -type f ! -name LICENSE ! -name ARPHICPL.TXT | sort)
 if [[ $what == serve ]]; then
   echo "http://localhost:8000 (Ctrl-C ends it)"
-  python3 -m http.server --directory web/dist 8000 > /dev/null 2>&1
+  python3 -m http.server --bind localhost --directory web/dist 8000 2> >(grep -v " HTTP/1" >&2) > /dev/null
 fi

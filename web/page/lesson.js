@@ -1,5 +1,6 @@
 // A character being written: what the pen does becomes ink, hints and, at the end, a score.
 import { constants } from "../calligraphy.js";
+import { Animations } from "./animations.js";
 import { Desk, em, sheet } from "./desk.js";
 import { Brush, InkLine } from "./ink.js";
 import { colours } from "./paper.js";
@@ -19,12 +20,6 @@ import { Recorder } from "./recorder.js";
  * @property {boolean} isAccepted whether it finished a stroke
  * @property {number} begin [s]
  * @property {string} why it was refused
- *
- * @typedef {object} Animation
- * @property {number} duration [ms]
- * @property {number} [begin] [ms]
- * @property {(share: number) => void} draw with the share of it that has passed
- * @property {() => void} [then]
  */
 
 /** What each mode shows, and whether it guides. */
@@ -39,15 +34,14 @@ export const modes = {
 const missesUntilShown = 2;
 const patience = 250;  // time for which a hint must hold before it is shown [ms]
 const rest = 1000;     // time without anything to draw after which no more pictures are drawn [ms]
-const longestGap = 500;  // between two pictures: what the pen did meanwhile is not made up for beyond it [ms]
+const longestGap = 3000;  // between two pictures: what the pen did before is not made up for [ms]
 
 /** The words for a tick's hint, without the millimetres of a page that the screen shows at another size.
  * @param {import("../calligraphy.js").Library} library @param {import("../calligraphy_layout.mjs").Structs["tick"]} tick */
 const hintWords = (library, tick) => library.hint(tick).replace(/\d+ mm /, "");
 
 export class Lesson {
-  /** @type {Animation[]} */
-  animations = [];
+  animations = new Animations();
   /** @type {PenDown[]} */
   penDowns = [];
   /** @type {PenDown | undefined} */
@@ -62,7 +56,7 @@ export class Lesson {
   tip = [sheet / 2, sheet / 2];  // of the guided pen [m]
   isOnPaper = false;
   isGuideLate = false;  // its settings have changed while the pen was on the paper
-  hint = { kind: 0, text: "", since: 0 };  // why the pen is not guided, and since when [ms]
+  hint = { kind: 0, text: "", age: 0 };  // why the pen is not guided, and for how long [ms]
 
   /** @type {InkLine[]} */
   own = [];  // since the last lift
@@ -71,6 +65,7 @@ export class Lesson {
   ownAt = [sheet / 2, sheet / 2];  // where the pointer was last on the paper [m]
   ownTime = 0;                     // and when [ms]
   isDown = false;                  // the pointer
+  hasPointer = false;              // has been seen
   /** @type {number | undefined} */
   pressure;
 
@@ -128,7 +123,7 @@ export class Lesson {
     const stroke = this.desk.due;
     if (this.isWritten || !this.desk.skip()) return;
     this.skipped.push(stroke);
-    this.animations = [];
+    this.animations.clear();
     this.#strokeIsOver();
     this.paper.fillStroke("ink", this.desk.strokes[stroke], colours.skipped);
     if (this.desk.due === this.desk.strokes.length) this.#finish();
@@ -199,19 +194,18 @@ export class Lesson {
       this.#advance();
     }
     this.#draw(now);
-    const isBusy = this.isOnPaper || this.isDown || this.animations.length > 0;
+    const isBusy = this.isOnPaper || this.isDown || this.animations.playing.length > 0;
     this.isAwake = isBusy || now - this.lastActivity < rest;
     if (this.isAwake) requestAnimationFrame((next) => this.#picture(next));
   }
 
   #takeSamples() {
     for (let sample = this.pointer.take(this.time); sample; sample = this.pointer.take(this.time)) {
-      if (this.settings.mode === "watch") continue;
+      if (this.settings.mode === "watch" || this.isWritten) continue;
       const begins = sample.isDown && !this.isDown;
       if (begins) {
         this.own.push(new InkLine());
         this.ownBrush = new Brush();
-        this.marks = () => {};
       }
       if (sample.isDown) {
         const seconds = begins ? 0 : Math.max(1e-3, (sample.time - this.ownTime) * 1e-3);
@@ -221,6 +215,7 @@ export class Lesson {
         this.ownAt = [sample.x, sample.y];
         this.ownTime = sample.time;
       }
+      this.hasPointer = true;
       this.isDown = sample.isDown;
       this.pressure = sample.isDown ? sample.pressure : 0;  // a pen that is lifted leaves a thin end
       this.desk.move(sample.x, sample.y, sample.isDown);
@@ -257,7 +252,7 @@ export class Lesson {
 
   /** @param {number} begin [s] */
   #putDown(begin) {
-    this.animations = [];
+    this.animations.clear();
     this.brush = new Brush();
     this.penDown = { guided: new InkLine(), own: [], isAccepted: false, begin, why: "" };
     this.penDowns.push(this.penDown);
@@ -292,6 +287,7 @@ export class Lesson {
 
   #finish() {
     this.isWritten = true;
+    this.isDown = false;
     this.display.changed(this);
     this.display.written(this);
   }
@@ -300,12 +296,12 @@ export class Lesson {
   #readHint(tick) {
     const kind = tick.hint === constants.HINT_WRITE ? constants.HINT_NONE : tick.hint;
     if (kind !== this.hint.kind) {
-      this.hint = { kind, text: hintWords(this.library, tick), since: this.time };
+      this.hint = { kind, text: hintWords(this.library, tick), age: 0 };
       const isWhy = kind !== constants.HINT_NONE && kind !== constants.HINT_LIFT_FIRST;
       if (this.penDown && isWhy) this.penDown.why = this.hint.text;
     }
     const [x, y] = this.tip;
-    if (kind !== constants.HINT_NONE && this.time - this.hint.since === patience) this.display.hint(this.hint.text, x, y);
+    if (kind !== constants.HINT_NONE && ++this.hint.age === patience) this.display.hint(this.hint.text, x, y);
   }
 
   /** @param {number} now */
@@ -315,9 +311,9 @@ export class Lesson {
     paper.clear("marks");
     const due = this.desk.strokes[this.desk.due];
     if (this.mode.hasStart && due && !(penDown && !penDown.isAccepted)) paper.markStart(due);
-    this.#playAnimations(now);
+    this.animations.play(now);
     this.marks();
-    if (this.settings.mode !== "watch" && !this.isWritten) paper.markPen(this.tip[0], this.tip[1], this.isOnPaper);
+    if (this.hasPointer && !this.isWritten) paper.markPen(this.tip[0], this.tip[1], this.isOnPaper);
   }
 
   /** The ink that is to be seen of a pen-down. @param {"ink" | "pen"} layer
@@ -333,7 +329,7 @@ export class Lesson {
 
   /** Ink that was refused goes away. @param {PenDown} penDown */
   #fade(penDown) {
-    this.#animate(500, (share) => {
+    this.animations.add(500, (share) => {
       const context = this.paper.contexts.marks;
       context.globalAlpha = 0.6 * (1 - share);
       penDown.guided.drawAll(context, colours.wrong);
@@ -343,7 +339,7 @@ export class Lesson {
 
   /** @param {import("./desk.js").Stroke} stroke @param {() => void} then */
   #flash(stroke, then) {
-    this.#animate(900, (share) => {
+    this.animations.add(900, (share) => {
       const context = this.paper.contexts.marks;
       context.globalAlpha = Math.sin(2 * Math.PI * share) ** 2;
       this.paper.fillStroke("marks", stroke, colours.flash);
@@ -354,7 +350,7 @@ export class Lesson {
   /** Writes a stroke on the layer of marks. @param {number} index @param {() => void} [then] */
   #demonstrate(index, then) {
     const stroke = this.desk.strokes[index];
-    this.#animate(250 + (400 * stroke.length) / em, (share) => {
+    this.animations.add(250 + (400 * stroke.length) / em, (share) => {
       this.paper.fillBeginning("marks", stroke, then ? colours.ink : colours.flash, share);
     }, then);
   }
@@ -365,26 +361,7 @@ export class Lesson {
     if (index === strokes.length) return;
     this.#demonstrate(index, () => {
       this.paper.fillStroke("ink", strokes[index], colours.ink);
-      this.#animate(200, () => {}, () => this.#watch(index + 1));
+      this.animations.add(200, () => {}, () => this.#watch(index + 1));
     });
-  }
-
-  /** @param {number} duration [ms] @param {(share: number) => void} draw @param {() => void} [then] */
-  #animate(duration, draw, then) {
-    this.animations.push({ duration, draw, then });
-    this.wake();
-  }
-
-  /** @param {number} now */
-  #playAnimations(now) {
-    const playing = this.animations;
-    const ended = playing.filter((animation) => {
-      animation.begin ??= now;
-      const share = Math.min(1, (now - animation.begin) / animation.duration);
-      animation.draw(share);
-      return share === 1;
-    });
-    this.animations = playing.filter((animation) => !ended.includes(animation));
-    for (const { then } of ended) then?.();
   }
 }
