@@ -7,6 +7,7 @@ writes to DIRECTORY:
   calligraphy_layout.d.mts  their types, in TypeScript
   layout_check.cpp          fails to compile where the compiler lays a struct out otherwise
 """
+import collections
 import json
 import pathlib
 import re
@@ -113,20 +114,43 @@ def declared_function(name, parameters, returns):
     return f"{name}({passed}): " + {"handle": "Handle", "text": "string", "number": "number", None: "void"}[returns]
 
 
-def declarations(structs, constants, functions):
-    """The types of all, in TypeScript."""
+def comments(text):
+    """Those of the header: of each function, struct and constant by its name, of each member by its struct's and its
+    own."""
+    found = collections.defaultdict(str)
+
+    def add(name, comment):
+        words = " ".join(re.sub(r"^\s*///<? ?", "", line) for line in comment.strip().splitlines())
+        if words:
+            found[name] = f"/** {re.sub('calligraphy_', '', words, flags=re.I)} */ "
+
+    for comment, name in re.findall(r"^((?:///.*\n)*)CALLIGRAPHY_API [\w* ]+ calligraphy_(\w+)\(", text, re.M):
+        add(name, comment)
+    for comment, name, body in re.findall(r"^((?:///.*\n)*)typedef struct calligraphy_(\w+) \{([^}]*)\}", text, re.M):
+        add(name, comment)
+        for member, comment in re.findall(r"(\w+)(?:\[\d+\])?;\s*(///<.*)", body):
+            add(f"{name}.{member}", comment)
+    for name, comment in re.findall(r"^  CALLIGRAPHY_(\w+) = \d+,?\s*(///<.*)", text, re.M):
+        add(name, comment)
+    return found
+
+
+def declarations(structs, constants, functions, about):
+    """The types of all, in TypeScript, with comments about them."""
     def block(head, lines):
         return f"{head} {{\n" + "".join(f"  {line};\n" for line in lines) + "}\n"
 
     return TYPES + "".join(
-        block(f"export interface {interface(name)}", [
-            *(declared_member(member, *place) for member, place in struct["members"].items()),
+        block(f"{about[name]}export interface {interface(name)}", [
+            *(about[f"{name}.{member}"] + declared_member(member, *place)
+              for member, place in struct["members"].items()),
             "readonly address: number", f"values(): Values<{interface(name)}>"])
         for name, struct in structs.items()
     ) + "".join(block(*each) for each in (
         ("export interface Structs", [f"{name}: {interface(name)}" for name in structs]),
-        ("export const constants:", [f"readonly {name}: number" for name in constants]),
-        ("export interface Functions", [declared_function(name, **each) for name, each in functions.items()])))
+        ("export const constants:", [f"{about[name]}readonly {name}: number" for name in constants]),
+        ("export interface Functions", [about[name] + declared_function(name, **each)
+                                        for name, each in functions.items()])))
 
 
 def constant(enumeration, line):
@@ -138,7 +162,8 @@ def constant(enumeration, line):
 
 def main():
     header, directory = map(pathlib.Path, sys.argv[1:])
-    text = re.sub(r"//.*", "", header.read_text(encoding="utf-8"))
+    commented = header.read_text(encoding="utf-8")
+    text = re.sub(r"//.*", "", commented)
     structs = {name: layout(name, body) for name, body in re.findall(r"struct calligraphy_(\w+) \{(.*?)\}", text, re.S)}
     constants = dict(constant(name, line) for name, body in re.findall(r"enum (\w+) \{(.*?)\}", text, re.S)
                      for line in body.split(","))
@@ -151,7 +176,8 @@ def main():
 
     (directory / "calligraphy_layout.mjs").write_text(
         "".join(table(*each) for each in (("structs", structs), ("constants", constants), ("functions", functions))))
-    (directory / "calligraphy_layout.d.mts").write_text(declarations(structs, constants, functions))
+    (directory / "calligraphy_layout.d.mts").write_text(
+        declarations(structs, constants, functions, comments(commented)), encoding="utf-8")
     checks = [f"static_assert(sizeof(calligraphy_{name}) == {struct['size']});\n" + "".join(
         f"static_assert(offsetof(calligraphy_{name}, {member}) == {place[1]});\n"
         for member, place in struct["members"].items()) for name, struct in structs.items()]

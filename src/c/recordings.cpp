@@ -31,7 +31,6 @@ calligraphy_status calligraphy_recording_create(const calligraphy_page* page, do
     auto made = std::make_shared<RecordingObject>();
     made->page = shared_object<PracticePage>(page);
     set_if_given(made->recording.rate, rate, "rate", "Hz");
-    made->recording.page = page_id(*made->page);
     target(recording, "recording");
     hand_out(recording, std::move(made));
   });

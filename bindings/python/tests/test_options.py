@@ -289,6 +289,17 @@ def test_the_force_is_limited_to_the_peak_of_your_own_device():
     assert device.forces[-1] == pytest.approx([0, 0, 0.5])
 
 
+def test_a_renderer_skips_strokes():
+    page = cal.lay_out([CHARACTERS["十"]])[0]
+    renderer = cal.HapticRenderer(page.characters, cal.upright_page(page.width, page.height), PROFILE)
+    assert renderer.skip_stroke() and renderer.last.stroke == 0
+    in_the_air = cal.DeviceState(position=(0, 0, 0.01))
+    assert renderer.update(in_the_air).stroke == 1
+    assert renderer.skip_stroke() and not renderer.skip_stroke()
+    tick = renderer.update(in_the_air)
+    assert tick.character == 1 and not tick.events
+
+
 def test_a_renderer_reports_what_it_clipped_and_can_be_restarted():
     page = cal.lay_out([CHARACTERS["一"]])[0]
     mapping = cal.upright_page(page.width, page.height)

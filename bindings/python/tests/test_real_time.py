@@ -250,6 +250,7 @@ def test_a_law_may_not_use_what_another_loop_owns(law):
             "update": lambda: renderer.update(cal.DeviceState()),
             "trace": lambda: renderer.trace(np.zeros((3, 3))),
             "restart": renderer.restart,
+            "skip_stroke": renderer.skip_stroke,
             "last": lambda: renderer.last,
         }
     if law == "session":

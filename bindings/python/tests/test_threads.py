@@ -168,7 +168,8 @@ def test_a_renderer_can_be_used_by_only_one_thread_at_a_time():
     thread = threading.Thread(target=lambda: traced.append(shared.trace(positions)))
     thread.start()
     state = cal.DeviceState(position=(0, 0, 0.01))
-    uses = [lambda: shared.update(state), lambda: shared.trace(positions[:3]), shared.restart, lambda: shared.last]
+    uses = [lambda: shared.update(state), lambda: shared.trace(positions[:3]), lambda: shared.last]
+    uses += [shared.restart, shared.skip_stroke]
     while thread.is_alive() and len(refused) < len(uses):
         try:
             shared.last  # no effect if it is not rejected
