@@ -9,11 +9,36 @@ export const colours = {
   flash: "#f0a23c", skipped: "#b9b4ac", wrong: "#d3372c",
 };
 
-/** The path of a polyline, closed if it is an outline. @param {Float64Array} points @param {boolean} closed */
-export function pathOf(points, closed) {
+const corner = Math.cos(0.6);  // an outline turns by more only where it has a corner
+
+/** A polyline. @param {Float64Array} points */
+function line(points) {
   const path = new Path2D();
   for (let i = 0; i < points.length; i += 2) path.lineTo(points[i], points[i + 1]);
-  if (closed) path.closePath();
+  return path;
+}
+
+/** A smooth curve through the points of an outline, but for its corners. @param {Float64Array} points */
+function outline(points) {
+  const count = points.length / 2, path = new Path2D();
+  const sides = Array.from({ length: count }, (_, i) => {  // from each point to the next: unit vector and length
+    const next = (i + 1) % count, x = points[2 * next] - points[2 * i], y = points[2 * next + 1] - points[2 * i + 1];
+    const length = Math.hypot(x, y) || 1;
+    return { x: x / length, y: y / length, length };
+  });
+  const tangents = sides.map((side, i) => {
+    const before = sides.at(i - 1) ?? side, x = before.x + side.x, y = before.y + side.y, sum = Math.hypot(x, y);
+    const isSmooth = before.x * side.x + before.y * side.y > corner;
+    return isSmooth ? { x: x / sum, y: y / sum } : undefined;
+  });
+  path.moveTo(points[0], points[1]);
+  sides.forEach((side, i) => {
+    const next = (i + 1) % count, third = side.length / 3, from = tangents[i] ?? side, to = tangents[next] ?? side;
+    const [x, y] = points.subarray(2 * next, 2 * next + 2);
+    path.bezierCurveTo(points[2 * i] + third * from.x, points[2 * i + 1] + third * from.y, x - third * to.x,
+                       y - third * to.y, x, y);
+  });
+  path.closePath();
   return path;
 }
 
@@ -30,6 +55,7 @@ export class Paper {
       element.append(canvas);
       this.contexts[layer] = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
     }
+    this.shapes = /** @type {WeakMap<Stroke, Path2D>} */ (new WeakMap());
     this.pixels = 0;  // of the width and the height
     this.#resize();
     new ResizeObserver(() => { if (this.#resize()) redraw(); }).observe(element);
@@ -81,7 +107,7 @@ export class Paper {
   fillStroke(layer, stroke, colour) {
     const context = this.contexts[layer];
     context.fillStyle = colour;
-    context.fill(pathOf(stroke.outline, true));
+    context.fill(this.#shape(stroke));
   }
 
   /** The beginning of a stroke, as far as `share` of its length. @param {Layer} layer @param {Stroke} stroke
@@ -89,12 +115,12 @@ export class Paper {
   fillBeginning(layer, stroke, colour, share) {
     const context = this.contexts[layer], { path } = stroke;
     context.save();
-    context.clip(pathOf(stroke.outline, true));
+    context.clip(this.#shape(stroke));
     context.strokeStyle = colour;
     context.lineJoin = context.lineCap = "round";
     context.lineWidth = em / 4;  // wider than any ink
     context.setLineDash([Math.max(share * stroke.length, 1e-9), 2 * stroke.length + em]);
-    context.stroke(pathOf(path, false));
+    context.stroke(line(path));
     context.restore();
   }
 
@@ -152,6 +178,13 @@ export class Paper {
     context.textBaseline = "middle";
     context.fillText(String(number), 0, 6);
     context.restore();
+  }
+
+  /** The outline of a stroke's ink. @param {Stroke} stroke */
+  #shape(stroke) {
+    let shape = this.shapes.get(stroke);
+    if (!shape) this.shapes.set(stroke, shape = outline(stroke.outline));
+    return shape;
   }
 
   /** @returns {boolean} whether it changed */
