@@ -15,7 +15,6 @@ const pressed = 0.5;  // pressure of a pen on the paper, whatever its own: it mu
  * @property {Float64Array} outline of its ink: x and y of each point [m, page]
  * @property {Float64Array} path of the pen, likewise
  * @property {[number, number]} start where it begins
- * @property {[number, number]} direction unit vector in which it begins; zero for a point
  * @property {number} length of its path [m]
  */
 
@@ -125,7 +124,6 @@ export class Desk {
         outline: library.polyline(page, 0, i, constants.OUTLINE, em / 1000),
         path: library.polyline(page, 0, i, constants.PATH, em / 1000),
         start: /** @type {[number, number]} */ ([stroke.start[0], stroke.start[1]]),
-        direction: /** @type {[number, number]} */ ([stroke.direction[0], stroke.direction[1]]),
         length: stroke.length,
       };
     });

@@ -93,7 +93,7 @@ async function main() {
 
   offer("modes", Object.fromEntries(Object.entries(modes).map(([mode, { name }]) => [mode, name])), "guided",
         (mode) => change({ mode: /** @type {import("./lesson.js").ModeName} */ (mode) }));
-  offer("ink", { guided: "Guided ink", own: "My own ink", both: "Both" }, "guided",
+  offer("ink", { guided: "Guided ink", own: "My own ink", both: "Both, mine in blue" }, "guided",
         (ink) => change({ ink: /** @type {"guided" | "own" | "both"} */ (ink) }));
   for (const [value, name] of [[constants.TOLERANCE_LENIENT, "lenient"], [constants.TOLERANCE_NORMAL, "normal"],
                                [constants.TOLERANCE_STRICT, "strict"]]) {

@@ -18,6 +18,18 @@ function line(points) {
   return path;
 }
 
+/** The points of a path as far as a length, the last one there. @param {Float64Array} path @param {number} length [m] */
+function beginning(path, length) {
+  const points = [path[0], path[1]];
+  for (let i = 2, rest = length; i < path.length && rest > 0; i += 2) {
+    const x = path[i] - path[i - 2], y = path[i + 1] - path[i - 1], step = Math.hypot(x, y);
+    const share = Math.min(1, rest / (step || 1));
+    points.push(path[i - 2] + share * x, path[i - 1] + share * y);
+    rest -= step;
+  }
+  return Float64Array.from(points);
+}
+
 /** A smooth curve through the points of an outline, but for its corners. @param {Float64Array} points */
 function outline(points) {
   const count = points.length / 2, path = new Path2D();
@@ -124,31 +136,27 @@ export class Paper {
     context.restore();
   }
 
-  /** Where a stroke begins, and in which direction. @param {Stroke} stroke */
-  markStart({ start: [x, y], direction: [dx, dy] }) {
-    const context = this.contexts.marks;
-    context.save();
-    context.translate(x, y);
-    context.rotate(Math.atan2(dy, dx));
+  /** Where a stroke begins, and the way it takes from there. @param {Stroke} stroke */
+  markStart({ start: [x, y], path, length }) {
+    const context = this.contexts.marks, way = beginning(path, Math.min(em / 6, 0.8 * length));
+    const [tipX, tipY] = way.slice(-2), [lastX, lastY] = way.slice(-6);
     context.strokeStyle = context.fillStyle = colours.start;
     context.lineWidth = em / 150;
+    context.lineJoin = "round";
     context.beginPath();
-    context.ellipse(0, 0, em / 22, em / 34, 0, 0, 2 * Math.PI);
+    context.ellipse(x, y, em / 22, em / 34, Math.atan2(tipY - y, tipX - x), 0, 2 * Math.PI);
     context.globalAlpha = 0.25;
     context.fill();
     context.globalAlpha = 1;
     context.stroke();
-    if (dx !== 0 || dy !== 0) {
-      const [from, tip, half] = [em / 22, em / 7, em / 60];
-      context.beginPath();
-      context.moveTo(from, 0);
-      context.lineTo(tip, 0);
-      context.moveTo(tip - 1.6 * half, half);
-      context.lineTo(tip, 0);
-      context.lineTo(tip - 1.6 * half, -half);
-      context.stroke();
+    context.stroke(line(way));
+    const direction = Math.atan2(tipY - lastY, tipX - lastX), side = em / 32;
+    context.beginPath();
+    for (const turn of [-2.5, 0, 2.5]) {
+      const reach = turn === 0 ? 0 : side;
+      context.lineTo(tipX + reach * Math.cos(direction + turn), tipY + reach * Math.sin(direction + turn));
     }
-    context.restore();
+    context.stroke();
   }
 
   /** The pen above the paper or on it. @param {number} x @param {number} y @param {boolean} isDown */
