@@ -1,6 +1,6 @@
 // print_forces: a character through the C interface, by a hand that holds a simulated device and by one that follows a
 // pointer: forces and more, one number a line, which agree to 1e-9 wherever they are computed, and with those of
-// print_forces.mjs. How long a tick takes goes to the standard error.
+// scripted_forces.mjs. How long a tick takes goes to the standard error.
 #include <algorithm>
 #include <array>
 #include <chrono>

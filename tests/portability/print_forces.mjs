@@ -1,88 +1,12 @@
-// print_forces.cpp in JavaScript: the same numbers, from the same calls.
+// Prints the numbers of scripted_forces.mjs, one a line, and what a tick takes to the standard error.
 // usage: node print_forces.mjs DIRECTORY, where scripts/web.sh built the module
 import { readFileSync } from "node:fs";
 import { resolve } from "node:path";
+import { nanosecondsPerTick, scriptedForces } from "./scripted_forces.mjs";
 
 const directory = resolve(process.argv[2]);
 const { constants, load } = await import(`${directory}/calligraphy.js`);
 const library = await load(readFileSync(`${directory}/calligraphy.wasm`));
-
-const page = library.page_lay_out(library.set_built_in(), "永", null, null);
-const tick = library.struct("tick");
-const lines = [];
-let events = 0;
-
-/** Where the pen means to be, tick by tick [m, page]: 1.5 mm beside each stroke, lifted before and after it. */
-function intendedPath() {
-  const path = [];
-  const go = (x, y, z) => {
-    const [x0, y0, z0] = path.at(-1) ?? [0.08, 0.06, 0.02];
-    const length = Math.sqrt((x - x0) * (x - x0) + (y - y0) * (y - y0) + (z - z0) * (z - z0));
-    const count = Math.floor(length / 1e-4) + 1;
-    for (let i = 1; i <= count; ++i) {
-      path.push([x0 + ((x - x0) * i) / count, y0 + ((y - y0) * i) / count, z0 + ((z - z0) * i) / count]);
-    }
-  };
-  for (let stroke = 0; stroke < 5; ++stroke) {
-    const points = library.polyline(page, 0, stroke, constants.PATH);
-    const count = points.length / 2;
-    go(points[0] + 0.0015, points[1], 0.008);
-    for (let i = 0; i < count; ++i) go(points[2 * i] + 0.0015, points[2 * i + 1], -0.003);
-    go(points[2 * count - 2] + 0.0015, points[2 * count - 1], 0.008);
-  }
-  return path;
-}
-
-function print() {
-  for (const value of [...tick.force, ...tick.pen_tip, ...tick.attraction, tick.energy_given, tick.state, tick.hint]) {
-    lines.push(value);
-  }
-  events |= tick.events;
-}
-
-const path = intendedPath();
-const profile = library.struct("capabilities");
-const mapping = library.struct("mapping");
-const options = library.struct("renderer_options");
-
-// A hand that holds a simulated device.
-library.device_profile("touch", profile);
-library.page_mapping(page, constants.UPRIGHT, 1, mapping);
-library.renderer_options_for(profile, constants.PRESET_EVERYTHING, 1, constants.TOLERANCE_NORMAL, options);
-const renderer = library.renderer_create(page, mapping, profile, options);
-const onDevice = path.map((point) => point.map((value, axis) => value - mapping.offset[axis]));  // upright, scale 1
-const device = library.simulated_device_create(profile, null, onDevice[0]);
-const states = [];
-for (const position of onDevice) {
-  const state = library.struct("device_state");
-  library.device_intend(device, position, null);
-  library.device_read(device, state);
-  library.renderer_update(renderer, state, tick);
-  library.device_write(device, tick.force);
-  library.device_advance(device, 1e-3);
-  print();
-  states.push(state);
-}
-
-// A servo, and a hand that follows a pointer on the desk.
-library.device_profile("ideal", profile);
-library.page_mapping(page, constants.DESK, 1.5, mapping);
-const pointer = library.pointer_device_create(profile, null, null, mapping);
-const servo = library.servo_create(pointer, library.renderer_create(page, mapping, profile, null));
-path.forEach(([x, y, z], i) => {
-  library.device_move_pointer(pointer, x, y, z < 0 ? 0.6 : 0, 0);
-  library.servo_step(servo, i * 1e-3, tick);
-  print();
-});
-console.log(lines.join("\n"));
-if ((events & constants.PAGE_FINISHED) === 0) throw new Error("the page was not finished");
-
-// The samples again: what a tick takes, the median of several rounds.
-const rounds = [];
-for (let round = 0; round < 21; ++round) {
-  library.renderer_restart(renderer);
-  const start = performance.now();
-  for (const state of states) library.renderer_update(renderer, state, tick);
-  rounds.push((performance.now() - start) / states.length);
-}
-console.error(`${Math.round(1e6 * rounds.sort((a, b) => a - b)[10])} ns per tick in JavaScript`);
+const written = scriptedForces(library, constants);
+console.log(written.numbers.join("\n"));
+console.error(`${nanosecondsPerTick(library, written)} ns per tick in JavaScript`);

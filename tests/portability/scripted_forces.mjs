@@ -1,0 +1,86 @@
+// print_forces.cpp in JavaScript: the same numbers, from the same calls, in node as in a browser.
+
+/** Where the pen means to be, tick by tick [m, page]: 1.5 mm beside each stroke, lifted before and after it. */
+function intendedPath(library, constants, page) {
+  const path = [];
+  const go = (x, y, z) => {
+    const [x0, y0, z0] = path.at(-1) ?? [0.08, 0.06, 0.02];
+    const length = Math.sqrt((x - x0) * (x - x0) + (y - y0) * (y - y0) + (z - z0) * (z - z0));
+    const count = Math.floor(length / 1e-4) + 1;
+    for (let i = 1; i <= count; ++i) {
+      path.push([x0 + ((x - x0) * i) / count, y0 + ((y - y0) * i) / count, z0 + ((z - z0) * i) / count]);
+    }
+  };
+  for (let stroke = 0; stroke < 5; ++stroke) {
+    const points = library.polyline(page, 0, stroke, constants.PATH);
+    const count = points.length / 2;
+    go(points[0] + 0.0015, points[1], 0.008);
+    for (let i = 0; i < count; ++i) go(points[2 * i] + 0.0015, points[2 * i + 1], -0.003);
+    go(points[2 * count - 2] + 0.0015, points[2 * count - 1], 0.008);
+  }
+  return path;
+}
+
+/**
+ * Writes a character by a hand that holds a simulated device and by one that follows a pointer.
+ * @returns {{numbers: number[], renderer: number, states: object[]}} forces and more of each tick; and the renderer of
+ * the former with its samples, for nanosecondsPerTick()
+ */
+export function scriptedForces(library, constants) {
+  const page = library.page_lay_out(library.set_built_in(), "永", null, null);
+  const tick = library.struct("tick");
+  const numbers = [];
+  let events = 0;
+  const record = () => {
+    numbers.push(...tick.force, ...tick.pen_tip, ...tick.attraction, tick.energy_given, tick.state, tick.hint);
+    events |= tick.events;
+  };
+  const path = intendedPath(library, constants, page);
+  const profile = library.struct("capabilities");
+  const mapping = library.struct("mapping");
+  const options = library.struct("renderer_options");
+
+  // A hand that holds a simulated device.
+  library.device_profile("touch", profile);
+  library.page_mapping(page, constants.UPRIGHT, 1, mapping);
+  library.renderer_options_for(profile, constants.PRESET_EVERYTHING, 1, constants.TOLERANCE_NORMAL, options);
+  const renderer = library.renderer_create(page, mapping, profile, options);
+  const onDevice = path.map((point) => point.map((value, axis) => value - mapping.offset[axis]));  // upright, scale 1
+  const device = library.simulated_device_create(profile, null, onDevice[0]);
+  const states = [];
+  for (const position of onDevice) {
+    const state = library.struct("device_state");
+    library.device_intend(device, position, null);
+    library.device_read(device, state);
+    library.renderer_update(renderer, state, tick);
+    library.device_write(device, tick.force);
+    library.device_advance(device, 1e-3);
+    record();
+    states.push(state);
+  }
+
+  // A servo, and a hand that follows a pointer on the desk.
+  library.device_profile("ideal", profile);
+  library.page_mapping(page, constants.DESK, 1.5, mapping);
+  const pointer = library.pointer_device_create(profile, null, null, mapping);
+  const servo = library.servo_create(pointer, library.renderer_create(page, mapping, profile, null));
+  path.forEach(([x, y, z], i) => {
+    library.device_move_pointer(pointer, x, y, z < 0 ? 0.6 : 0, 0);
+    library.servo_step(servo, i * 1e-3, tick);
+    record();
+  });
+  if ((events & constants.PAGE_FINISHED) === 0) throw new Error("the page was not finished");
+  return { numbers, renderer, states };
+}
+
+/** What a tick takes, the median of several rounds of the samples of scriptedForces(). */
+export function nanosecondsPerTick(library, { renderer, states }) {
+  const tick = library.struct("tick"), rounds = [];
+  for (let round = 0; round < 21; ++round) {
+    library.renderer_restart(renderer);
+    const start = performance.now();
+    for (const state of states) library.renderer_update(renderer, state, tick);
+    rounds.push((performance.now() - start) / states.length);
+  }
+  return Math.round(1e6 * rounds.sort((a, b) => a - b)[10]);
+}
