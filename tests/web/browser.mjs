@@ -13,7 +13,7 @@ const types = {
 };
 const flags = ["--no-sandbox", "--headless=new", "--disable-gpu", "--disable-quic", "--no-first-run",
                "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-const patience = 120e3;  // a limit only, for machines that are busy [ms]
+const patience = Number(process.env.P ?? 60e3);  // a limit only, for machines that are busy [ms]
 const layers = ["sheet", "ink", "pen", "marks"];  // the canvases, the lowest first
 
 /**
@@ -158,10 +158,11 @@ export class Tab {
    * @param {[number, number]} [how.beside] added to each point [m]
    * @param {(share: number) => number} [how.force] pressure at a share of the way
    * @param {number} [how.speed] [m/s]
+   * @param {number} [how.dwell] time from the first touch to the first movement, or 0: that between any two events [ms]
    * @param {() => Promise<void>} [how.midway] called halfway
    */
   async write(path, { as = "pen", beside = [0, 0], force = (share) => 0.3 + 0.5 * Math.sin(Math.PI * share),
-                      speed = 0.07, midway } = {}) {
+                      speed = 0.07, dwell = 0, midway } = {}) {
     const interval = 8;  // between two events [ms]
     const points = resampled(path, speed * interval * 1e-3), last = points.length - 1;
     const paper = await this.page.locator("#paper").boundingBox();
@@ -172,6 +173,7 @@ export class Tab {
     await send.hover(points[0]);
     await this.pass(150);
     await send.press(points[0], force(0));
+    await this.pass(dwell);
     for (let i = 1; i <= last; ++i) {
       await this.pass(interval);
       if (i === Math.ceil(last / 2)) await midway?.();
