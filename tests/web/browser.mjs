@@ -13,7 +13,7 @@ const types = {
 };
 const flags = ["--no-sandbox", "--headless=new", "--disable-gpu", "--disable-quic", "--no-first-run",
                "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-const patience = Number(process.env.P ?? 60e3);  // a limit only, for machines that are busy [ms]
+const patience = 60e3;  // a limit only, for machines that are busy [ms]
 const layers = ["sheet", "ink", "pen", "marks"];  // the canvases, the lowest first
 
 /**
@@ -139,9 +139,14 @@ export class Tab {
     return this.page.locator(selector).textContent();
   }
 
-  /** Chooses what has this name among the choices of `id`. */
-  async choose(id, name) {
-    await this.page.locator(`#${id} label`, { hasText: name }).click();
+  /** Clicks on one of several choices. @param {"modes" | "ink"} id @param {string} value such as "memory" */
+  async choose(id, value) {
+    await this.page.locator(`#${id} label:has(input[value="${value}"])`).click();
+    await this.pass(50);
+  }
+
+  async click(selector) {
+    await this.page.locator(selector).click();
     await this.pass(50);
   }
 

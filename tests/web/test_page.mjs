@@ -1,0 +1,337 @@
+// Writes on the page in Chromium, as people would, and looks at what becomes of it.
+// usage: node test_page.mjs DIST PLAYWRIGHT_DIRECTORY [SCREENSHOT_DIRECTORY]
+//   DIST                  the page, as scripts/web.sh built it
+//   PLAYWRIGHT_DIRECTORY  where npm installed playwright-core
+//
+// CALLIGRAPHY_PROGRAM and CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL: with which a character of 48 strokes is made; without
+// them its test is skipped. CALLIGRAPHY_FORCES: file to which the forces in Chromium are written.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { Tab, beginningOf, partsOf, serve, start } from "./browser.mjs";
+
+const [dist, playwright, screenshots] = process.argv.slice(2);
+const parts = await partsOf(dist);
+const { em, colours } = parts;
+const 永 = parts.strokesOf("永");
+const mostBytes = 500e3;  // of the first load, compressed
+
+/** @type {import("playwright-core").Browser} */
+let browser;
+/** @type {Awaited<ReturnType<typeof serve>>} */
+let server;
+before(async () => {
+  browser = await start(playwright);
+  server = await serve(dist, { "/scripted_forces.mjs": readFileSync(
+    new URL("../portability/scripted_forces.mjs", import.meta.url)) });
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+/** A test with a page of its own, which must report no error and ask no other host. */
+function testPage(name, options, check) {
+  test(name, async (context) => {
+    const { origin = server.origin, ...how } = options;
+    const tab = await Tab.open(browser, origin, parts, how);
+    try {
+      await check(tab, context);
+      assert.deepEqual(tab.problems, []);
+      assert.deepEqual(tab.requests.filter((address) => !/^(data|blob):/.test(address) && !address.startsWith(origin)), []);
+    } finally {
+      await tab.close();
+    }
+  });
+}
+
+const progress = (tab) => tab.text("#progress");
+const dueIs = async (tab, stroke) => assert.equal(await progress(tab), `Stroke ${stroke} of 5`);
+const isWritten = async (tab) => assert.equal(await progress(tab), "Written");
+const backwards = (path) => [...path].reverse();
+const off = (share) => [share * em, 0];  // to the right by a share of the square
+
+/** How far the strokes were from their templates, in % of the square. */
+const percentIn = (text) => Number(/([\d.]+) % of the square/.exec(text)[1]);
+
+testPage("永 is written with a pen, and is wider where it was pressed harder", {}, async (tab) => {
+  for (const [i, path] of 永.slice(0, 4).entries()) {
+    await dueIs(tab, i + 1);
+    await tab.write(path);
+  }
+  // The last one goes from the middle to the lower right.
+  const middle = (永[4][0][0] + 永[4].at(-1)[0]) / 2;
+  const halves = () => Promise.all([[0, middle], [middle, tab.sheet]].map((from) => tab.countPixels("ink", { from })));
+  const [left, right] = await halves();
+  await tab.write(永[4], { force: (share) => (share < 0.45 ? 0.05 : 0.9) });
+  const [leftNow, rightNow] = await halves();
+  assert.ok(rightNow - right > 1.6 * (leftNow - left), `${rightNow - right} and ${leftNow - left} pixels`);
+  await isWritten(tab);
+  const { score, remarks, praise } = await tab.result();
+  assert.ok(score >= 80, `a score of ${score}`);
+  assert.deepEqual([remarks.length, praise.length], [0, 1]);
+});
+
+testPage("the guide brings the pen nearer to the strokes than the hand is", {}, async (tab) => {
+  const offTheStrokes = async (percent) => {
+    await tab.setStrength(percent);
+    await tab.writeAll(永, { beside: off(0.03) });
+    const cell = (await tab.result()).rows["Off the strokes"];
+    await tab.click("#again");
+    return cell;
+  };
+  const guided = await offTheStrokes(60), [pen, hand] = guided.split("your hand alone:").map(percentIn);
+  assert.ok(pen < 0.8 * hand, guided);
+  const alone = await offTheStrokes(0);
+  assert.ok(!alone.includes("your hand alone"), alone);
+  assert.ok(Math.abs(percentIn(alone) - hand) < 0.4, `${alone}, with the guide ${guided}`);
+});
+
+testPage("strokes backwards, out of order and lifted midway are refused, and remarked on", {}, async (tab) => {
+  const isRefused = async (path, stroke, hint) => {
+    await tab.write(path);
+    await dueIs(tab, stroke);
+    assert.match(await tab.text("#hint"), hint);
+  };
+  await isRefused(backwards(永[0]), 1, /at the stroke's end/);
+  await isRefused(永[3], 1, /another stroke's start/);
+  await tab.write(永[0]);
+  await isRefused(beginningOf(永[1], 0.5), 2, /lifted before the end of the stroke/);
+  await tab.writeAll(永.slice(1));
+  await isWritten(tab);
+  const { remarks } = await tab.result();
+  assert.equal(remarks.length, 3, remarks.join("; "));
+  assert.match(remarks[0], /backwards/);
+  const marks = new Set([await tab.fingerprint("marks")]);
+  for (let i = 0; i < remarks.length; ++i) {
+    await tab.page.locator("#result .remarks button").nth(i).hover();
+    await tab.pass(50);
+    marks.add(await tab.fingerprint("marks"));
+  }
+  assert.equal(marks.size, 1 + remarks.length);
+});
+
+for (const as of ["mouse", "touch"]) {
+  testPage(`永 is written with ${as === "mouse" ? "a mouse" : "a finger"}`, {}, async (tab) => {
+    for (const [i, path] of 永.entries()) {
+      await dueIs(tab, i + 1);
+      await tab.write(path, { as });
+    }
+    await isWritten(tab);
+    assert.ok((await tab.result()).score >= 80);
+  });
+}
+
+testPage("a mouse writes wider when it is slow; a pen does not", { character: "一" }, async (tab) => {
+  const [path] = parts.strokesOf("一");
+  const pixels = async (how) => {
+    await tab.write(path, { force: () => 0.5, ...how });
+    const count = await tab.countPixels("ink");
+    await tab.click("#again");
+    return count;
+  };
+  const [slow, quick] = [await pixels({ as: "mouse", speed: 0.03 }), await pixels({ as: "mouse", speed: 0.15 })];
+  assert.ok(slow > 1.2 * quick, `${slow} and ${quick} pixels`);
+  const [slowPen, quickPen] = [await pixels({ speed: 0.03 }), await pixels({ speed: 0.15 })];
+  assert.ok(slowPen < 1.1 * quickPen, `${slowPen} and ${quickPen} pixels with a pen`);
+});
+
+testPage("a stroke that was missed twice is shown, and can be skipped", {}, async (tab) => {
+  await tab.choose("modes", "memory");
+  const shown = () => tab.countPixels("sheet", { colour: colours.due });
+  await tab.write(永[3]);
+  assert.equal(await shown(), 0);
+  await tab.write(永[3]);
+  assert.ok(await shown() > 0);
+  await dueIs(tab, 1);
+  await tab.click("#skip");
+  await dueIs(tab, 2);
+  assert.equal(await shown(), 0);
+  assert.ok(await tab.countPixels("ink", { colour: colours.skipped }) > 0);
+  await tab.writeAll(永.slice(1));
+  await isWritten(tab);
+  const { remarks } = await tab.result();
+  assert.ok(remarks.some((remark) => /stroke 1 .*was not written/.test(remark)), remarks.join("; "));
+});
+
+testPage("each mode shows as much of the template as it says", {}, async (tab) => {
+  const shown = async (mode) => {
+    await tab.choose("modes", mode);
+    const [due, others] = await Promise.all([colours.due, colours.template].map(
+      (colour) => tab.countPixels("sheet", { colour })));
+    return [due > 0, others > 0];
+  };
+  assert.deepEqual(await shown("guided"), [true, true]);
+  assert.deepEqual(await shown("vision"), [true, true]);
+  assert.deepEqual(await shown("next"), [true, false]);
+  const first = await tab.fingerprint("sheet");
+  await tab.write(永[0]);
+  assert.notEqual(await tab.fingerprint("sheet"), first, "the next stroke is shown instead");
+  assert.deepEqual(await shown("next"), [true, false]);
+  assert.deepEqual(await shown("memory"), [false, false]);
+  await tab.writeAll(永);
+  await isWritten(tab);
+});
+
+testPage("strokes are shown one after the other to who watches, and no ink is taken", {}, async (tab) => {
+  await tab.choose("modes", "watch");
+  const inks = [0];
+  for (let waited = 0; waited < 100 && inks.slice(-10).some((ink) => ink !== inks.at(-1) || ink === 0); ++waited) {
+    await tab.pass(100);
+    inks.push(await tab.countPixels("ink"));
+  }
+  const steps = inks.filter((ink, i) => i > 0 && ink !== inks[i - 1]);
+  assert.equal(steps.length, 永.length, inks.join());
+  const ink = await tab.fingerprint("ink");
+  await tab.writeAll(永.slice(0, 2));
+  assert.equal(await tab.fingerprint("ink"), ink);
+  assert.equal(await tab.countPixels("pen"), 0);
+  assert.equal(await progress(tab), "5 strokes");
+});
+
+testPage("other ink and another strength leave what was written", {}, async (tab) => {
+  await tab.writeAll(永.slice(0, 2), { beside: off(0.03) });
+  const inks = [];
+  for (const kind of ["own", "both", "guided"]) {
+    await tab.choose("ink", kind);
+    inks.push(await tab.fingerprint("ink"));
+  }
+  assert.equal(new Set(inks).size, 3);
+  await tab.setStrength(20);
+  await dueIs(tab, 3);
+  assert.equal(await tab.fingerprint("ink"), inks[2]);
+  await tab.write(永[2], { midway: () => tab.setStrength(70) });
+  await dueIs(tab, 4);
+  await tab.choose("ink", "both");
+  await tab.writeAll(永.slice(3), { midway: () => tab.choose("ink", "guided") });
+  await isWritten(tab);
+  assert.deepEqual((await tab.result()).remarks, []);
+});
+
+for (const [tolerance, accepts] of [["strict", false], ["lenient", true]]) {
+  testPage(`a stroke begun 12 % beside is ${accepts ? "accepted" : "refused"} where the page is ${tolerance}`, {},
+           async (tab) => {
+    await tab.setStrength(0);
+    await tab.page.locator("#tolerance").selectOption({ label: tolerance });
+    await tab.write(永[0], { beside: off(0.12) });
+    await dueIs(tab, accepts ? 2 : 1);
+  });
+}
+
+test("the built-in characters are written where the others are missing", async () => {
+  const bare = await serve(dist, { "/characters.set": null, "/characters.txt": null });
+  const tab = await Tab.open(browser, bare.origin, parts);
+  try {
+    await tab.writeAll(parts.strokesOf("永", parts.library.set_built_in()));
+    await isWritten(tab);
+    assert.deepEqual((await tab.result()).remarks, []);
+    assert.ok(await tab.page.locator("#characters button").count() > 1);
+    assert.deepEqual(tab.problems.filter((problem) => !problem.includes("404")), []);
+  } finally {
+    await tab.close();
+    bare.close();
+  }
+});
+
+test("the first load, until a character has been judged, is small", async (context) => {
+  const counting = await serve(dist);
+  const tab = await Tab.open(browser, counting.origin, parts, { character: "一" });
+  try {
+    await tab.write(parts.strokesOf("一")[0]);
+    await tab.result();
+    const bytes = counting.sent.reduce((sum, { size }) => sum + size, 0);
+    const characters = await tab.page.locator("#characters button").count();
+    context.diagnostic(`first load: ${bytes} bytes in ${counting.sent.length} files, with ${characters} characters`);
+    assert.ok(characters >= 300);
+    assert.ok(bytes <= mostBytes, `${bytes} bytes: ${counting.sent.map(({ path, size }) => `${path} ${size}`).join()}`);
+  } finally {
+    await tab.close();
+    counting.close();
+  }
+});
+
+const longest = (tasks) => `${Math.round(Math.max(0, ...tasks.map(({ duration }) => duration)))} ms`;
+
+/** Set file with 龘, three 龍 of half the size: one above, two below. */
+function dragons(directory) {
+  const program = process.env.CALLIGRAPHY_PROGRAM, single = join(directory, "single.txt");
+  const text = join(directory, "three.txt"), set = join(directory, "three.set");
+  const tell = (...given) => execFileSync(program, given, { stdio: ["ignore", "ignore", "inherit"] });
+  tell("import", process.env.CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL, "--only", "龍", "--ink", "none", "--format", "text",
+       "-o", single);
+  const strokes = readFileSync(single, "utf8").split("\n").filter((line) => line.startsWith("stroke "));
+  const moved = ([x, y]) => strokes.map((line) => line.replace(/([-\d.e]+),([-\d.e]+)/g,
+    (_, u, v) => `${x + u / 2},${y + v / 2}`));
+  const places = [[0.25, 0.5], [0, 0], [0.5, 0]];
+  writeFileSync(text, ["calligraphy characters 2", "character 龘", ...places.flatMap(moved), ""].join("\n"));
+  tell("import", text, "-o", set);
+  return readFileSync(set);
+}
+
+const canMakeDragons = process.env.CALLIGRAPHY_PROGRAM && process.env.CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL;
+test("龘 is written in real time, all 48 strokes", {
+  skip: canMakeDragons ? false : "CALLIGRAPHY_PROGRAM and CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL are not set",
+}, async (context) => {
+  const directory = mkdtempSync(join(tmpdir(), "calligraphy-page-"));
+  const set = dragons(directory);
+  rmSync(directory, { recursive: true });
+  const dragonServer = await serve(dist, { "/characters.set": set, "/characters.txt": "龘" });
+  const tab = await Tab.open(browser, dragonServer.origin, parts, { character: "龘", hasClock: false });
+  try {
+    const strokes = parts.strokesOf("龘", set);
+    assert.equal(strokes.length, 48);
+    const ready = await tab.page.evaluate(() => performance.now());
+    for (const [i, path] of strokes.entries()) {
+      assert.equal(await progress(tab), `Stroke ${i + 1} of 48`);
+      await tab.write(path);
+      await tab.page.waitForFunction((next) => document.getElementById("progress").textContent === next,
+                                     i < 47 ? `Stroke ${i + 2} of 48` : "Written");
+    }
+    const { score, remarks } = await tab.result();
+    assert.ok(score >= 80, `a score of ${score}: ${remarks.join("; ")}`);
+    const tasks = await tab.page.evaluate(() => globalThis.longTasks);
+    context.diagnostic(`longest task: ${longest(tasks.filter(({ startTime }) => startTime < ready))} until ready, `
+      + `${longest(tasks.filter(({ startTime }) => startTime >= ready))} from then until 龘 is judged`);
+    assert.deepEqual(tab.problems, []);
+  } finally {
+    await tab.close();
+    dragonServer.close();
+  }
+});
+
+testPage("it says when it is ready", { hasClock: false }, async (tab, context) => {
+  const { own, whole } = await tab.page.evaluate(() => ({
+    own: Number(document.body.dataset.ready), whole: performance.getEntriesByName("ready")[0].duration,
+  }));
+  assert.ok(own > 0 && whole >= own);
+  context.diagnostic(`ready after ${Math.round(whole)} ms, ${own} ms of them in the page's script`);
+});
+
+testPage("the forces of a scripted pen are computed", { hasClock: false }, async (tab, context) => {
+  const { numbers, nanoseconds } = await tab.page.evaluate(async () => {
+    const [{ constants, load }, { nanosecondsPerTick, scriptedForces }] =
+      await Promise.all(["/calligraphy.js", "/scripted_forces.mjs"].map((path) => import(path)));
+    const library = await load(), written = scriptedForces(library, constants);
+    return { numbers: written.numbers, nanoseconds: nanosecondsPerTick(library, written) };
+  });
+  assert.ok(numbers.length > 0 && numbers.every(Number.isFinite));
+  if (process.env.CALLIGRAPHY_FORCES) writeFileSync(process.env.CALLIGRAPHY_FORCES, `${numbers.join("\n")}\n`);
+  context.diagnostic(`${nanoseconds} ns per tick in Chromium`);
+});
+
+for (const [width, height] of [[360, 740], [1280, 800], [3840, 2160]]) {
+  testPage(`half of 永 fits into ${width} x ${height}`, { size: { width, height } }, async (tab) => {
+    await tab.writeAll(永.slice(0, 3));
+    await dueIs(tab, 4);
+    const { paper, over } = await tab.page.evaluate(() => ({
+      paper: document.getElementById("paper").getBoundingClientRect().toJSON(),
+      over: document.documentElement.scrollWidth - document.documentElement.clientWidth,
+    }));
+    assert.equal(over, 0, "it is not wider than the window");
+    assert.ok(paper.left >= 0 && paper.right <= width && paper.top >= 0 && paper.bottom <= height, "the paper is seen");
+    if (screenshots) await tab.page.screenshot({ path: join(screenshots, `${width}x${height}.png`) });
+  });
+}
