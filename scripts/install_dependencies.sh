@@ -20,6 +20,8 @@ elif [[ ${1:-} == tests || ${1:-} == full ]]; then
   if [[ $1 == full ]]; then
     packages+=(g++-aarch64-linux-gnu qemu-user)
     command -v node > /dev/null || packages+=(nodejs)
+    # Ubuntu has Chromium only as a snap.
+    if grep -qs '^ID=debian' /etc/os-release; then packages+=(chromium); fi
   fi
 elif [[ ${1:-} == peers ]]; then
   packages+=(ca-certificates lib2geom-dev libbenchmark-dev libboost-dev python3 valgrind)

@@ -4,9 +4,9 @@
 # The last line is "N passed, N failed", preceded by the tests that took more than 5 s and by the processor time of each
 # part.
 # usage: test.sh [--full | --changed]
-#   --full   also the slow checks: the library with clang and libc++, as WebAssembly and on an emulated arm64, each
-#            source file on its own, and the programs that no test runs: benchmarks, judges, long fuzz and soak runs;
-#            the plain run compiles one file with libc++ and one to WebAssembly
+#   --full   also the slow checks: the library with clang and libc++, as WebAssembly and on an emulated arm64, the page
+#            in Chromium, each source file on its own, and the programs that no test runs: benchmarks, judges, long fuzz
+#            and soak runs; the plain run compiles one file with libc++ and one to WebAssembly
 #   --changed  for use while working: only the Release tests of the components whose files differ from the branch main,
 #            and of those above them; of the program and the Python module only if their own files differ
 #
@@ -353,6 +353,7 @@ if [[ -n $full ]]; then
   check scripts/full/programs.sh
   check env CXX="$clang" scripts/full/libcxx.sh
   check scripts/full/wasm.sh
+  check env CALLIGRAPHY_PROGRAM="$build/release/tools/calligraphy" scripts/full/page.sh
   check scripts/full/arm64.sh
 fi
 finish

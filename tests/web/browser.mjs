@@ -44,7 +44,7 @@ export function start(directory) {
   return chromium.launch({ executablePath: process.env.CALLIGRAPHY_CHROMIUM ?? "/usr/bin/chromium", args: flags });
 }
 
-/** What the page is made of, in node: its library, its characters, and the modules that lay them out and colour them. */
+/** What the page is made of, in node: its library, and the modules that lay characters out and colour them. */
 export async function partsOf(directory) {
   const part = (name) => import(pathToFileURL(resolve(directory, name)));
   const [{ constants, load }, desk, { colours }] =
@@ -128,10 +128,12 @@ export class Tab {
     return this.context.close();
   }
 
-  /** Lets time pass: that of the page, or at least two pictures of the real one. @param {number} milliseconds */
+  /** Lets time pass: that of the page, or real time, in which at least two pictures are drawn unless it is short.
+   * @param {number} milliseconds */
   async pass(milliseconds) {
     if (this.hasClock) return this.page.clock.runFor(milliseconds);
     await this.page.waitForTimeout(milliseconds);
+    if (milliseconds < 50) return;
     await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   }
 
@@ -232,7 +234,8 @@ export class Tab {
       const wanted = colour && [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
       let count = 0;
       for (let i = 0; i < data.length; i += 4) {
-        if (wanted ? data[i + 3] === 255 && wanted.every((value, k) => data[i + k] === value) : data[i + 3] > 127) ++count;
+        const isOpaque = data[i + 3] === 255;
+        if (wanted ? isOpaque && wanted.every((value, k) => data[i + k] === value) : data[i + 3] > 127) ++count;
       }
       return count;
     }, [layers.indexOf(layer), colour, from[0] / this.sheet, from[1] / this.sheet]);
@@ -253,10 +256,11 @@ export class Tab {
     await this.pass(50);
     return this.page.evaluate(() => {
       const result = document.getElementById("result");
-      const texts = (selector, within = result) => [...within.querySelectorAll(selector)].map((each) => each.textContent);
+      const all = (selector) => [...result.querySelectorAll(selector)], texts = (selector) =>
+        all(selector).map((each) => each.textContent);
       return {
         score: parseInt(texts(".score")[0]),
-        rows: Object.fromEntries([...result.querySelectorAll("tr")].map((row) => [texts("th", row)[0], texts("td", row)[0]])),
+        rows: Object.fromEntries(all("tr").map((row) => [...row.children].map((cell) => cell.textContent))),
         remarks: texts(".remarks button"),
         praise: texts(".praise"),
       };
