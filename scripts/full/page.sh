@@ -23,11 +23,11 @@ CALLIGRAPHY_CHROMIUM=${CALLIGRAPHY_CHROMIUM:-$(command -v chromium || true)}
 npm install --silent --no-fund --no-audit --prefix "$build/playwright" playwright-core@$playwright ||
   skip "playwright-core cannot be downloaded by npm"
 scripts/full/native.sh "$build"
-scripts/web.sh "$build/web" > "$build/web.log"
+scripts/web.sh "$build/web" > "$build/web.log" || { tail -n 40 "$build/web.log"; exit 1; }
 [[ -f web/dist/characters.set ]] || skip "its characters cannot be downloaded by npm"
 
 # A copy of which node knows that its files are modules.
-rm -rf "$build/page" "$build/screenshots"
+rm -rf "$build"/{page,screenshots,chromium.forces}
 mkdir -p "$build/screenshots"
 cp -r web/dist "$build/page"
 echo '{"type": "module"}' > "$build/page/package.json"
@@ -39,5 +39,5 @@ status=0
 node tests/web/test_page.mjs "$build/page" "$build/playwright" "$build/screenshots" > "$build/page.log" || status=$?
 # Of the test's output, what it measured, its failures, and the counts.
 sed -n '/^not ok/,/^  \.\.\.$/p; /^# \(Subtest\|suites\|cancelled\|todo\|duration\)/d; /^# /p' "$build/page.log"
-[[ $status -eq 0 ]] || exit $status
-scripts/full/compare_numbers.py "$build/native.forces" "$build/chromium.forces"
+scripts/full/compare_numbers.py "$build/native.forces" "$build/chromium.forces" || status=$?
+exit $status

@@ -34,6 +34,7 @@ export async function serve(directory, instead = {}) {
     response.end(body);
   });
   await new Promise((listening) => server.listen(0, "localhost", listening));
+  server.unref();  // a test that failed does not keep node alive
   return { sent, origin: `http://localhost:${server.address().port}`,
            close: () => { server.closeAllConnections(); server.close(); } };
 }
@@ -119,7 +120,9 @@ export class Tab {
     });
     tab.devtools = await tab.context.newCDPSession(tab.page);
     await tab.page.goto(`${origin}/#${character}`);
-    await tab.page.waitForFunction(() => document.body.dataset.ready);
+    await tab.page.waitForFunction(() => document.body.dataset.ready).catch((error) => {
+      throw new Error(`the page is not ready: ${tab.problems.join("; ")}`, { cause: error });
+    });
     await tab.pass(50);
     return tab;
   }
@@ -203,7 +206,8 @@ export class Tab {
     }
     const send = (type, at, button, force) => this.devtools.send("Input.dispatchMouseEvent", {
       type, ...place(at), button, buttons: type !== "mouseReleased" && button === "left" ? 1 : 0, pointerType: as,
-      ...(as === "pen" ? { force } : {}), clickCount: type === "mouseMoved" ? 0 : 1,
+      force: as === "mouse" && force > 0 ? 0.5 : force,  // what browsers report of a mouse
+      clickCount: type === "mouseMoved" ? 0 : 1,
     });
     return {
       hover: (at) => send("mouseMoved", at, "none", 0),
