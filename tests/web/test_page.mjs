@@ -128,7 +128,11 @@ for (const as of ["mouse", "touch"]) {
       await tab.write(path, { as });
     }
     await isWritten(tab);
-    assert.ok((await tab.result()).score >= 80);
+    const { score, rows, remarks } = await tab.result();
+    assert.ok(score >= 80, `a score of ${score}`);
+    assert.deepEqual(remarks, []);
+    // A finger is not seen coming: the pen must not draw its way from where it was.
+    assert.ok(percentIn(rows["Off the strokes"]) < 1, rows["Off the strokes"]);
   });
 }
 
