@@ -84,6 +84,13 @@ export class Desk {
     this.library.device_move_pointer(this.device, x, y, isDown ? pressed : 0, 0);
   }
 
+  /** Whether the lifted pen is not where a pointer is that was not seen coming, such as a finger. @param {number} x
+   * @param {number} y */
+  isAwayFrom(x, y) {
+    const { pen_tip } = this.tick;
+    return Math.hypot(pen_tip[0] - x, pen_tip[1] - y) > 0.01 * em;
+  }
+
   /** One millisecond; its result is in `tick`. */
   advance() {
     const { library, device, sample, tick } = this;

@@ -33,6 +33,7 @@ export const modes = {
 
 const missesUntilShown = 2;
 const patience = 250;  // time for which a hint must hold before it is shown [ms]
+const longestWay = 150;  // of the lifted pen across the sheet [ms]
 const rest = 1000;     // time without anything to draw after which no more pictures are drawn [ms]
 const longestGap = 3000;  // between two pictures: what the pen did before is not made up for [ms]
 
@@ -66,6 +67,7 @@ export class Lesson {
   ownTime = 0;                     // and when [ms]
   isDown = false;                  // the pointer
   hasPointer = false;              // has been seen
+  timeOnWays = 0;                  // of the pen to where a finger was put down [s]
   /** @type {number | undefined} */
   pressure;
 
@@ -204,6 +206,7 @@ export class Lesson {
       if (this.settings.mode === "watch" || this.isWritten) continue;
       const begins = sample.isDown && !this.isDown;
       if (begins) {
+        if (this.desk.isAwayFrom(sample.x, sample.y)) this.#bring(sample.x, sample.y);
         this.own.push(new InkLine());
         this.ownBrush = new Brush();
       }
@@ -222,16 +225,29 @@ export class Lesson {
     }
   }
 
+  /** Lifts the pen and takes it to where a finger touches the paper, in no time of the writer's.
+   * @param {number} x @param {number} y */
+  #bring(x, y) {
+    const advance = () => {
+      this.timeOnWays += 1e-3;
+      this.#advance();
+    };
+    for (let i = 0; i < longestWay && this.isOnPaper; ++i) advance();
+    this.desk.move(x, y, false);
+    for (let i = 0; i < longestWay; ++i) advance();
+  }
+
   #advance() {
     const { desk, brush } = this, before = desk.due;
     const tick = desk.advance(), [x, y] = tick.pen_tip, { events } = tick;
     const isOnPaper = tick.state !== constants.SEPARATION;
-    if (events & constants.CONTACT) this.#putDown(tick.time);
+    const time = tick.time - this.timeOnWays;
+    if (events & constants.CONTACT) this.#putDown(time);
     if (isOnPaper && this.penDown) {
       const speed = Math.hypot(x - this.tip[0], y - this.tip[1]) * 1000;
       this.penDown.guided.add(x, y, brush.press(this.pressure, speed, 1e-3), 0.7 * this.paper.pixel);
     }
-    if (isOnPaper || events !== 0) this.recorder.add(tick, this.ownAt);
+    if (isOnPaper || events !== 0) this.recorder.add(tick, time, this.ownAt);
     this.tip = [x, y];
     this.isOnPaper = isOnPaper;
     this.#readHint(tick);

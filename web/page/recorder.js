@@ -10,15 +10,16 @@ export class Recorder {
 
   /**
    * @param {Tick} tick
+   * @param {number} time of it [s]
    * @param {[number, number]} own where the pointer was last on the paper [m]
    */
-  add(tick, own) {
+  add(tick, time, own) {
     if (perTick * (this.count + 1) > this.numbers.length) {
       const larger = new Float64Array(2 * this.numbers.length);
       larger.set(this.numbers);
       this.numbers = larger;
     }
-    const { time, status, state, events, character, stroke } = tick;
+    const { status, state, events, character, stroke } = tick;
     this.numbers.set([time, status, state, events, character, stroke, ...tick.pen_tip, ...tick.page_force, ...own],
                      perTick * this.count);
     this.count += 1;
