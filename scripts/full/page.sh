@@ -5,7 +5,9 @@
 # usage: page.sh [BUILD_DIRECTORY]
 #
 # Skipped where there is no Chromium, or npm downloads nothing, unless CALLIGRAPHY_REQUIRE_DATA is set.
-# CALLIGRAPHY_CHROMIUM: the browser; by default chromium. CALLIGRAPHY_PROGRAM: as for web.sh.
+# CALLIGRAPHY_CHROMIUM: the browser; by default chromium. CALLIGRAPHY_PROGRAM: as for web.sh. CALLIGRAPHY_PEN_TRACES and
+# CALLIGRAPHY_CHARACTER_FILE: pen traces of people (docs/pen-traces.md), and a set file with their characters: how many of
+# their strokes the page accepts.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}  # modules of Debian's em++, if node is not Debian's
@@ -40,4 +42,9 @@ node tests/web/test_page.mjs "$build/page" "$build/playwright" "$build/screensho
 # Of the test's output, what it measured, its failures, and the counts.
 sed -n '/^not ok/,/^  \.\.\.$/p; /^# \(Subtest\|suites\|cancelled\|todo\|duration\)/d; /^# /p' "$build/page.log"
 scripts/full/compare_numbers.py "$build/native.forces" "$build/chromium.forces" || status=$?
+if [[ -n ${CALLIGRAPHY_PEN_TRACES:-} && -n ${CALLIGRAPHY_CHARACTER_FILE:-} ]]; then
+  node --no-experimental-fetch tests/web/free_pens.mjs "$build/page" "$CALLIGRAPHY_CHARACTER_FILE" \
+    "$CALLIGRAPHY_PEN_TRACES/handwriting_zh_TW.txt" > "$build/free_pens.log" || status=$?
+  cat "$build/free_pens.log"
+fi
 exit $status
