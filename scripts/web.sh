@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, and builds the page: web/dist, which any static server can host. Prints what a browser loads.
+# Installs what is missing, and builds the page: web/dist, which any static server can host. Prints what a browser
+# loads.
 # usage: web.sh [--serve | --module | --types] [BUILD_DIRECTORY]
 #   --serve   then serves web/dist at http://localhost:8000
 #   --module  builds only the C interface as WebAssembly, with the module for JavaScript, in BUILD_DIRECTORY/web

@@ -5,9 +5,9 @@
 # usage: page.sh [BUILD_DIRECTORY]
 #
 # Skipped where there is no Chromium, or npm downloads nothing, unless CALLIGRAPHY_REQUIRE_DATA is set.
-# CALLIGRAPHY_CHROMIUM: the browser; by default chromium. CALLIGRAPHY_PROGRAM: as for web.sh. CALLIGRAPHY_PEN_TRACES and
-# CALLIGRAPHY_CHARACTER_FILE: pen traces of people (docs/pen-traces.md), and a set file with their characters: how many of
-# their strokes the page accepts.
+# CALLIGRAPHY_CHROMIUM: the browser; by default chromium. CALLIGRAPHY_PROGRAM: as for web.sh. CALLIGRAPHY_PEN_TRACES
+# and CALLIGRAPHY_CHARACTER_FILE: pen traces of people (docs/pen-traces.md), and a set file with their characters: how
+# many of their strokes the page accepts.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}  # modules of Debian's em++, if node is not Debian's

@@ -17,7 +17,7 @@ ALSO_USED = {"practice": ["importers"], "pictures": ["importers"], "experiments"
 OTHERS = {"tools/": ["tools"], "bindings/": ["python"], "examples/": ["c", "collision", "devices", "model", "practice"],
           "examples/python/": ["python"], "docs/": ["python", "tools"],
           "docs/own-backend.md": ["devices", "python", "tools"], "README.md": ["python", "tools"], "CHANGELOG.md": [],
-          "web/": [],
+          "web/": [], "tests/web/": [],
           "tests/tools/": ["tools"], "tests/consumer/": ["consumer"], "tests/structure/": ["tools"],
           "tests/fuzz/": ["collision"], "tests/soak/": ["practice"],
           "tests/guidance/": ["guidance"], "tests/stability/": ["stability", "guidance"],

@@ -1,4 +1,5 @@
-// A character on a sheet of paper, and the simulated pen that writes it: its hand follows the pointer and feels the guide.
+// A character on a sheet of paper, and the simulated pen that writes it: its hand follows the pointer, and feels the
+// guide.
 import { constants } from "../calligraphy.js";
 
 /** Edge of the character's square, and the margin around it [m]. */

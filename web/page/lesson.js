@@ -7,6 +7,7 @@ import { colours } from "./paper.js";
 import { Recorder } from "./recorder.js";
 
 /**
+ * @typedef {import("../calligraphy_layout.mjs").Structs["tick"]} Tick
  * @typedef {"guided" | "vision" | "next" | "memory" | "watch"} ModeName
  * @typedef {object} Settings
  * @property {ModeName} mode
@@ -38,7 +39,7 @@ const rest = 1000;     // time without anything to draw after which no more pict
 const longestGap = 3000;  // between two pictures: what the pen did before is not made up for [ms]
 
 /** The words for a tick's hint, without the millimetres of a page that the screen shows at another size.
- * @param {import("../calligraphy.js").Library} library @param {import("../calligraphy_layout.mjs").Structs["tick"]} tick */
+ * @param {import("../calligraphy.js").Library} library @param {Tick} tick */
 const hintWords = (library, tick) => library.hint(tick).replace(/\d+ mm /, "");
 
 export class Lesson {
@@ -308,7 +309,7 @@ export class Lesson {
     this.display.written(this);
   }
 
-  /** @param {import("../calligraphy_layout.mjs").Structs["tick"]} tick */
+  /** @param {Tick} tick */
   #readHint(tick) {
     const kind = tick.hint === constants.HINT_WRITE ? constants.HINT_NONE : tick.hint;
     if (kind !== this.hint.kind) {

@@ -1,12 +1,14 @@
 // The sheet of paper on the screen: four canvases on top of each other, so that only what changes is drawn anew.
 import { em, margin, sheet } from "./desk.js";
 
-/** @typedef {import("./desk.js").Stroke} Stroke */
-/** @typedef {"sheet" | "ink" | "pen" | "marks"} Layer what is printed, ink that stays, ink of this pen-down, and marks */
+/**
+ * @typedef {import("./desk.js").Stroke} Stroke
+ * @typedef {"sheet" | "ink" | "pen" | "marks"} Layer what is printed, ink that stays, ink of this pen-down, marks
+ */
 
 export const colours = {
-  paper: "#fffdf7", grid: "#d9a39a", template: "#dfe3ea", due: "#b9c7de", ink: "#1d1a18", own: "#2f7fb8", start: "#d3372c",
-  flash: "#f0a23c", skipped: "#b9b4ac", wrong: "#d3372c",
+  paper: "#fffdf7", grid: "#d9a39a", template: "#dfe3ea", due: "#b9c7de", start: "#d3372c", flash: "#f0a23c",
+  ink: "#1d1a18", own: "#2f7fb8", skipped: "#b9b4ac", wrong: "#d3372c",
 };
 
 const corner = Math.cos(0.6);  // an outline turns by more only where it has a corner
@@ -18,7 +20,7 @@ function line(points) {
   return path;
 }
 
-/** The points of a path as far as a length, the last one there. @param {Float64Array} path @param {number} length [m] */
+/** The points of a path as far as a length. @param {Float64Array} path @param {number} length [m] */
 function beginning(path, length) {
   const points = [path[0], path[1]];
   for (let i = 2, rest = length; i < path.length && rest > 0; i += 2) {
@@ -80,7 +82,8 @@ export class Paper {
 
   /** Where an event is on the page [m]. @param {PointerEvent} event @param {DOMRect} box of the element */
   place(event, box) {
-    return { x: (sheet * (event.clientX - box.left)) / box.width, y: sheet * (1 - (event.clientY - box.top) / box.height) };
+    const across = (event.clientX - box.left) / box.width, down = (event.clientY - box.top) / box.height;
+    return { x: sheet * across, y: sheet * (1 - down) };
   }
 
   /** Where a place on the page is in the element [CSS pixels]. @param {number} x @param {number} y */
