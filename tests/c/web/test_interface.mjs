@@ -76,6 +76,9 @@ test("an error is a status with its text", () => {
 
 test("what no function could be given is refused before it is called", () => {
   assert.throws(() => library.page_lay_out(page, "永"), /page_lay_out: 2 arguments, not 4/);
+  assert.throws(() => library.page_stroke(page, 0, 0), /page_stroke: 3 arguments, not 4/);
+  assert.throws(() => library.set_built_in(0), /set_built_in: 1 arguments, not 0/);
+  assert.throws(() => library.version(0), /version: 1 arguments, not 0/);
   const stroke = library.struct("stroke"), info = library.struct("page_info");
   const refused = [
     [() => library.device_profile("touch", undefined), /device_profile: \w+ is undefined, expected a struct capabil/],
