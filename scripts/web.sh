@@ -53,7 +53,7 @@ check_types() {
   local checked=$build/types
   rm -rf "$checked"
   mkdir -p "$checked"
-  cp -r web/*.js web/*.d.mts web/page web/tsconfig.json "$checked"
+  cp -r web/*.js web/*.d.ts web/page web/tsconfig.json "$checked"
   echo '{"type": "module"}' > "$checked/package.json"
   python3 web/layout.py include/calligraphy/c/calligraphy.h "$checked"
   if ! npm install --silent --no-fund --no-audit --prefix "$build/typescript" typescript@$typescript; then
@@ -96,7 +96,7 @@ import_characters() {
 build_page() {
   rm -rf web/dist
   mkdir -p web/dist
-  cp -r web/index.html web/page "$build"/web/calligraphy{.js,.mjs,.wasm,_layout.mjs} LICENSE web/dist
+  cp -r web/index.html web/page "$build"/web/calligraphy{.js,_module.js,_module.wasm,_layout.js} LICENSE web/dist
   import_characters
 }
 
@@ -106,13 +106,34 @@ if [[ $what == types ]]; then
 fi
 build_module
 if [[ $what == module ]]; then
-  print_sizes "$build"/web/calligraphy{.wasm,.mjs,_layout.mjs,.js}
+  print_sizes "$build"/web/calligraphy{_module.wasm,_module.js,_layout.js,.js}
   exit
 fi
 build_page
 # shellcheck disable=SC2046
 print_sizes $(find web/dist -type f ! -name LICENSE ! -name ARPHICPL.TXT | sort)
 if [[ $what == serve ]]; then
-  echo "http://localhost:8000 (Ctrl-C ends it)"
-  python3 -m http.server --bind localhost --directory web/dist 8000 2> >(grep -v " HTTP/1" >&2) > /dev/null
+  python3 - << 'END'
+import functools
+import http.server
+
+
+class Handler(http.server.SimpleHTTPRequestHandler):
+    extensions_map = {**http.server.SimpleHTTPRequestHandler.extensions_map, ".js": "text/javascript"}
+
+    def log_message(self, *_):
+        pass
+
+
+for port in range(8000, 8100):  # the first that is free
+    try:
+        server = http.server.ThreadingHTTPServer(("localhost", port), functools.partial(Handler, directory="web/dist"))
+    except OSError:
+        continue
+    print(f"http://localhost:{port} (Ctrl-C ends it)", flush=True)
+    try:
+        server.serve_forever()
+    except KeyboardInterrupt:
+        break
+END
 fi

@@ -5,15 +5,15 @@
 // number or a text, it takes no argument for it, and returns that value. Arguments are checked against the header:
 // numbers, handles, strings, structs, and arrays, of which those that are written must be typed arrays; null where the
 // header permits a null pointer.
-import createModule from "./calligraphy.mjs";
-import { constants, functions, structs } from "./calligraphy_layout.mjs";
+import createModule from "./calligraphy_module.js";
+import { constants, functions, structs } from "./calligraphy_layout.js";
 
 export { constants };
 
 /**
- * @typedef {import("./calligraphy_layout.mjs").Handle} Handle
- * @typedef {import("./calligraphy_layout.mjs").Functions} Functions
- * @typedef {import("./calligraphy_layout.mjs").Structs} Structs such as Structs["tick"]
+ * @typedef {import("./calligraphy_layout.js").Handle} Handle
+ * @typedef {import("./calligraphy_layout.js").Functions} Functions
+ * @typedef {import("./calligraphy_layout.js").Structs} Structs such as Structs["tick"]
  * @typedef {ReturnType<typeof bind>} Library what load() returns
  * @typedef {Values<Structs["drawn_stroke"]>} Drawn what a pen-down wrote
  * @typedef {Values<Structs["remark"]> & {reason: string}} Remark with a sentence for people
@@ -28,11 +28,11 @@ export { constants };
  */
 /**
  * @template Kind
- * @typedef {import("./calligraphy_layout.mjs").Initial<Kind>} Initial
+ * @typedef {import("./calligraphy_layout.js").Initial<Kind>} Initial
  */
 /**
  * @template Kind
- * @typedef {import("./calligraphy_layout.mjs").Values<Kind>} Values
+ * @typedef {import("./calligraphy_layout.js").Values<Kind>} Values
  */
 
 /** What a function of the library refused, in its words. */
@@ -80,21 +80,21 @@ function checking(type, refuse) {
 }
 
 /**
- * @param {BufferSource} [binary] the bytes of calligraphy.wasm; by default it is fetched from beside this file, which
+ * @param {BufferSource} [binary] the bytes of calligraphy_module.wasm; by default it is fetched from beside this file, which
  * node cannot do
  * @returns {Promise<Library>} the functions of the C interface, and struct(), discard(), text(), polyline(), hint(),
  * match() and score()
  */
 export async function load(binary) {
   if (!(binary === undefined || ArrayBuffer.isView(binary) || binary instanceof ArrayBuffer)) {
-    throw new TypeError("load: expected the bytes of calligraphy.wasm, or nothing");
+    throw new TypeError("load: expected the bytes of calligraphy_module.wasm, or nothing");
   }
   return bind(await createModule(binary ? { wasmBinary: binary } : {}));
 }
 
 /**
  * The functions of a module.
- * @param {import("./calligraphy.mjs").Module} module
+ * @param {import("./calligraphy_module.js").Module} module
  */
 function bind(module) {
   const classes = new Map(Object.keys(structs).map((name) => [name, structClass(name)]));

@@ -3,9 +3,9 @@
 
 usage: layout.py HEADER DIRECTORY
 writes to DIRECTORY:
-  calligraphy_layout.mjs    structs, constants and functions, without the prefix calligraphy_
-  calligraphy_layout.d.mts  their types, in TypeScript
-  layout_check.cpp          fails to compile where the compiler lays a struct out otherwise
+  calligraphy_layout.js    structs, constants and functions, without the prefix calligraphy_
+  calligraphy_layout.d.ts  their types, in TypeScript
+  layout_check.cpp         fails to compile where the compiler lays a struct out otherwise
 """
 import collections
 import json
@@ -174,9 +174,9 @@ def main():
         lines = "".join(f"  {key}: {json.dumps(value)},\n" for key, value in values.items())
         return f"export const {name} = {{\n{lines}}};\n"
 
-    (directory / "calligraphy_layout.mjs").write_text(
+    (directory / "calligraphy_layout.js").write_text(
         "".join(table(*each) for each in (("structs", structs), ("constants", constants), ("functions", functions))))
-    (directory / "calligraphy_layout.d.mts").write_text(
+    (directory / "calligraphy_layout.d.ts").write_text(
         declarations(structs, constants, functions, comments(commented)), encoding="utf-8")
     checks = [f"static_assert(sizeof(calligraphy_{name}) == {struct['size']});\n" + "".join(
         f"static_assert(offsetof(calligraphy_{name}, {member}) == {place[1]});\n"

@@ -6,7 +6,7 @@ import { nanosecondsPerTick, scriptedForces } from "./scripted_forces.mjs";
 
 const directory = resolve(process.argv[2]);
 const { constants, load } = await import(`${directory}/calligraphy.js`);
-const library = await load(readFileSync(`${directory}/calligraphy.wasm`));
+const library = await load(readFileSync(`${directory}/calligraphy_module.wasm`));
 const written = scriptedForces(library, constants);
 console.log(written.numbers.join("\n"));
 console.error(`${nanosecondsPerTick(library, written)} ns per tick in JavaScript`);

@@ -53,7 +53,7 @@ export async function partsOf(directory) {
   const part = (name) => import(pathToFileURL(resolve(directory, name)));
   const [{ constants, load }, desk, { colours }] =
     await Promise.all(["calligraphy.js", "page/desk.js", "page/paper.js"].map(part));
-  const library = await load(readFileSync(join(directory, "calligraphy.wasm")));
+  const library = await load(readFileSync(join(directory, "calligraphy_module.wasm")));
   const open = (bytes) => library.set_from_memory(bytes, bytes.length, "characters");
   /** The path of each stroke: points [x, y] [m, page]. */
   const strokesOf = (character, set = readFileSync(join(directory, "characters.set"))) => {

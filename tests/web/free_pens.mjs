@@ -10,7 +10,7 @@ import { resolve } from "node:path";
 const [dist, setFile, tracesFile] = process.argv.slice(2).map((path) => resolve(path));
 const { constants, load } = await import(`${dist}/calligraphy.js`);
 const { Desk, em } = await import(`${dist}/page/desk.js`);
-const library = await load(readFileSync(`${dist}/calligraphy.wasm`));
+const library = await load(readFileSync(`${dist}/calligraphy_module.wasm`));
 const bytes = readFileSync(setFile);
 const set = library.set_from_memory(bytes, bytes.length, setFile);
 

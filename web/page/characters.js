@@ -9,8 +9,8 @@ export async function openCharacters(library) {
   const [set, list] = await Promise.all(["characters.set", "characters.txt"].map(fetched));
   if (set && list) {
     const handle = library.set_from_memory(set, set.length, "characters.set");
-    const characters = [...new TextDecoder().decode(list).replace(/\s/g, "")];
-    return { set: handle, characters, isImported: true };
+    const known = new Set(listed(library, handle)), wanted = new TextDecoder().decode(list);
+    return { set: handle, characters: [...wanted].filter((each) => known.has(each)), isImported: true };
   }
   const handle = library.set_built_in();
   return { set: handle, characters: listed(library, handle), isImported: false };

@@ -34,6 +34,14 @@ export class InkLine {
     this.drawn = 0;  // of `points`
   }
 
+  /** Of its path [m]. */
+  get length() {
+    return this.points.reduce((sum, { x, y }, i) => {
+      const last = this.points[Math.max(0, i - 1)];
+      return sum + Math.hypot(x - last.x, y - last.y);
+    }, 0);
+  }
+
   /**
    * @param {number} x @param {number} y @param {number} width
    * @param {number} step what is nearer to the last point is left out [m]

@@ -7,7 +7,7 @@ import { colours } from "./paper.js";
 import { Recorder } from "./recorder.js";
 
 /**
- * @typedef {import("../calligraphy_layout.mjs").Structs["tick"]} Tick
+ * @typedef {import("../calligraphy_layout.js").Structs["tick"]} Tick
  * @typedef {"guided" | "vision" | "next" | "memory" | "watch"} ModeName
  * @typedef {object} Settings
  * @property {ModeName} mode
@@ -18,9 +18,11 @@ import { Recorder } from "./recorder.js";
  * @typedef {object} PenDown
  * @property {InkLine} guided where the guided pen was
  * @property {InkLine[]} own where the pointer was
- * @property {boolean} isAccepted whether it finished a stroke
+ * @property {[number, number] | undefined} finish where it finished a stroke; undefined: it did not [m]
+ * @property {InkLine} stray ink after that, of no stroke
  * @property {number} begin [s]
- * @property {string} why it was refused
+ * @property {number} hint why it was not guided, a constants.HINT_...
+ * @property {boolean} isBroken whether it began the stroke and did not finish it
  */
 
 /** What each mode shows, and whether it guides. */
@@ -33,14 +35,11 @@ export const modes = {
 };
 
 const missesUntilShown = 2;
+const tail = 0.12 * em;    // ink farther from where a stroke was finished is no part of it [m]
 const patience = 250;  // time for which a hint must hold before it is shown [ms]
 const longestWay = 150;  // of the lifted pen across the sheet [ms]
 const rest = 1000;     // time without anything to draw after which no more pictures are drawn [ms]
 const longestGap = 3000;  // between two pictures: what the pen did before is not made up for [ms]
-
-/** The words for a tick's hint, without the millimetres of a page that the screen shows at another size.
- * @param {import("../calligraphy.js").Library} library @param {Tick} tick */
-const hintWords = (library, tick) => library.hint(tick).replace(/\d+ mm /, "");
 
 export class Lesson {
   animations = new Animations();
@@ -58,7 +57,7 @@ export class Lesson {
   tip = [sheet / 2, sheet / 2];  // of the guided pen [m]
   isOnPaper = false;
   isGuideLate = false;  // its settings have changed while the pen was on the paper
-  hint = { kind: 0, text: "", age: 0 };  // why the pen is not guided, and for how long [ms]
+  hint = { kind: 0, age: 0 };  // why the pen is not guided, and for how long [ms]
 
   /** @type {InkLine[]} */
   own = [];  // since the last lift
@@ -168,7 +167,7 @@ export class Lesson {
     this.desk.strokes.forEach((stroke, i) => {
       const isDue = i === this.desk.due && this.settings.mode !== "watch";
       const isShown = this.misses >= missesUntilShown && isDue;
-      if (template === "all" || (template === "next" && isDue) || isShown) {
+      if (template === "all" || (template === "next" && isDue) || isShown || this.isWritten) {
         paper.fillStroke("sheet", stroke, isDue ? colours.due : colours.template);
       }
     });
@@ -178,7 +177,7 @@ export class Lesson {
   #drawInk() {
     this.paper.clear("ink");
     for (const stroke of this.skipped) this.paper.fillStroke("ink", this.desk.strokes[stroke], colours.skipped);
-    for (const penDown of this.penDowns) if (penDown.isAccepted) this.#drawLines("ink", penDown, true);
+    for (const penDown of this.penDowns) if (penDown.finish) this.#drawLines("ink", penDown, true);
   }
 
   #guide() {
@@ -246,15 +245,17 @@ export class Lesson {
     if (events & constants.CONTACT) this.#putDown(time);
     if (isOnPaper && this.penDown) {
       const speed = Math.hypot(x - this.tip[0], y - this.tip[1]) * 1000;
-      this.penDown.guided.add(x, y, brush.press(this.pressure, speed, 1e-3), 0.7 * this.paper.pixel);
+      const { finish, guided, stray } = this.penDown;
+      const isStray = finish && Math.hypot(x - finish[0], y - finish[1]) > tail;
+      (isStray ? stray : guided).add(x, y, brush.press(this.pressure, speed, 1e-3), 0.7 * this.paper.pixel);
     }
     if (isOnPaper || events !== 0) this.recorder.add(tick, time, this.ownAt);
     this.tip = [x, y];
     this.isOnPaper = isOnPaper;
     this.#readHint(tick);
     if (this.penDown) {
-      if (events & constants.STROKE_FINISHED) this.penDown.isAccepted = true;
-      if (events & constants.STROKE_ABANDONED && !isOnPaper) this.penDown.why = "lifted before the end of the stroke";
+      if (events & constants.STROKE_FINISHED) this.penDown.finish ??= [x, y];
+      if (events & constants.STROKE_ABANDONED) this.penDown.isBroken = true;
     }
     if (events & constants.LIFT) this.#lift();
     if (desk.due !== before) this.#strokeIsOver();
@@ -263,6 +264,7 @@ export class Lesson {
   /** Another one is due. */
   #strokeIsOver() {
     this.misses = 0;
+    this.display.hint("", 0, 0);
     this.#drawSheet();
     this.display.changed(this);
   }
@@ -270,8 +272,10 @@ export class Lesson {
   /** @param {number} begin [s] */
   #putDown(begin) {
     this.animations.clear();
+    this.display.hint("", 0, 0);
     this.brush = new Brush();
-    this.penDown = { guided: new InkLine(), own: [], isAccepted: false, begin, why: "" };
+    this.penDown = { guided: new InkLine(), own: [], finish: undefined, stray: new InkLine(), begin,
+                     hint: constants.HINT_NONE, isBroken: false };
     this.penDowns.push(this.penDown);
   }
 
@@ -282,7 +286,7 @@ export class Lesson {
     const isDown = this.isDown ? 1 : 0;  // that of the next stroke already
     penDown.own = this.own.splice(0, this.own.length - isDown);
     this.paper.clear("pen");
-    if (penDown.isAccepted) {
+    if (penDown.finish) {
       this.#drawLines("ink", penDown, true);
       if (this.desk.due === this.desk.strokes.length) this.#finish();
     } else if (!this.isWritten) {
@@ -297,14 +301,38 @@ export class Lesson {
     const [x, y] = this.tip, shows = this.misses >= missesUntilShown;
     this.#fade(penDown);
     this.#flash(this.desk.strokes[this.desk.due], () => shows && this.#demonstrate(this.desk.due));
-    this.display.hint(penDown.why || "write on, in the direction of the arrow", x, y);
+    this.display.hint(this.#whyRefused(penDown), x, y);
     if (shows) this.#drawSheet();
     this.display.changed(this);
+  }
+
+  /** @param {PenDown} penDown */
+  #whyRefused({ hint, isBroken, guided }) {
+    const { path, length, start } = this.desk.strokes[this.desk.due], [x, y] = this.tip;
+    const toStart = Math.hypot(x - start[0], y - start[1]);
+    const toEnd = Math.hypot(x - path[path.length - 2], y - path[path.length - 1]);
+    if (isBroken) {
+      return toEnd < 0.2 * em || guided.length > 0.8 * length ? "not along the stroke" : "lifted before its end";
+    }
+    if (hint === constants.HINT_AT_END && toStart < toEnd) return "backwards: the stroke begins here";
+    if (hint !== constants.HINT_NONE) return this.#words(hint);
+    return this.mode.hasStart ? "too short: write on, along the arrow" : "too short: write on";
+  }
+
+  /** The words for a hint where the pen is now, without the millimetres of a page that the screen shows at another
+   * size. @param {number} hint */
+  #words(hint) {
+    const { library, desk: { tick } } = this, shown = tick.hint;
+    tick.hint = hint;
+    const words = library.hint(tick).replace(/\d+ mm /, "");
+    tick.hint = shown;
+    return words;
   }
 
   #finish() {
     this.isWritten = true;
     this.isDown = false;
+    this.#drawSheet();
     this.display.changed(this);
     this.display.written(this);
   }
@@ -312,22 +340,22 @@ export class Lesson {
   /** @param {Tick} tick */
   #readHint(tick) {
     const kind = tick.hint === constants.HINT_WRITE ? constants.HINT_NONE : tick.hint;
-    if (kind !== this.hint.kind) {
-      this.hint = { kind, text: hintWords(this.library, tick), age: 0 };
-      const isWhy = kind !== constants.HINT_NONE && kind !== constants.HINT_LIFT_FIRST;
-      if (this.penDown && isWhy) this.penDown.why = this.hint.text;
-    }
-    const [x, y] = this.tip;
-    if (kind !== constants.HINT_NONE && ++this.hint.age === patience) this.display.hint(this.hint.text, x, y);
+    this.hint = kind === this.hint.kind ? { kind, age: this.hint.age + 1 } : { kind, age: 0 };
+    if (kind === constants.HINT_NONE) return;
+    if (this.hint.age === patience) this.display.hint(this.#words(kind), this.tip[0], this.tip[1]);
+    // The first one says where the pen was put down; that it was another stroke's start is seen later.
+    const isReason = this.penDown?.hint === constants.HINT_NONE || kind === constants.HINT_ANOTHER_STROKE;
+    if (this.penDown && isReason && kind !== constants.HINT_LIFT_FIRST) this.penDown.hint = kind;
   }
 
   /** @param {number} now */
   #draw(now) {
     const { paper, penDown } = this;
     if (penDown) this.#drawLines("pen", { ...penDown, own: this.own }, false);
+    penDown?.stray.drawOn(paper.contexts.pen, colours.skipped);
     paper.clear("marks");
     const due = this.desk.strokes[this.desk.due];
-    if (this.mode.hasStart && due && !(penDown && !penDown.isAccepted)) paper.markStart(due);
+    if (this.mode.hasStart && due && !(penDown && !penDown.finish)) paper.markStart(due);
     this.animations.play(now);
     this.marks();
     if (this.hasPointer && !this.isWritten) paper.markPen(this.tip[0], this.tip[1], this.isOnPaper);

@@ -22,6 +22,15 @@ function offer(id, names, chosen, choose) {
   }
 }
 
+/** The character that the address names; empty if it names none. */
+function asked() {
+  try {
+    return decodeURIComponent(location.hash.slice(1));
+  } catch {
+    return "";
+  }
+}
+
 async function main() {
   const library = await load();
   const { set, characters, isImported } = await openCharacters(library);
@@ -38,22 +47,27 @@ async function main() {
     hint.hidden = text === "";
     hint.textContent = text;
     const [left, top] = paper.onScreen(x, y), goal = lesson?.desk.strokes[lesson.desk.due];
-    hint.style.left = `${Math.min(Math.max(left, 90), paperElement.clientWidth - 90)}px`;
+    const width = hint.offsetWidth, height = hint.offsetHeight, size = paperElement.clientWidth;
     const isBelow = goal ? goal.start[1] > y : top < 80;  // so that it does not hide where to begin
-    hint.style.top = `${isBelow ? top + 28 : top - 68}px`;
+    const within = (/** @type {number} */ place, /** @type {number} */ extent) =>
+      `${Math.max(4, Math.min(size - extent - 4, place))}px`;
+    hint.style.left = within(left - width / 2, width);
+    hint.style.top = within(isBelow ? top + 28 : top - 28 - height, height);
     hint.classList.remove("passing");
     void hint.offsetWidth;  // begins the animation anew
     hint.classList.add("passing");
   }
 
   /** @param {Lesson} lesson */
-  function showProgress({ desk, misses, isWritten, mode, settings }) {
+  function showProgress({ desk, misses, skipped, isWritten, mode, settings }) {
     const isWatched = settings.mode === "watch", count = desk.strokes.length;
-    find("progress").textContent = isWatched ? `${count} strokes` : isWritten ? "Written"
-      : `Stroke ${desk.due + 1} of ${count}`;
+    find("progress").textContent = isWatched ? `${count} strokes` : !isWritten ? `Stroke ${desk.due + 1} of ${count}`
+      : skipped.length > 0 ? `${count - skipped.length} of ${count} strokes written` : "Written";
+    if (isWritten && document.activeElement === find("skip")) find("next").focus();
     input("skip").disabled = isWritten || isWatched;
     find("skip").classList.toggle("offered", misses >= 2);
     find("strength").closest("label")?.toggleAttribute("hidden", !mode.isGuided);
+    find("ink").hidden = !mode.isGuided;
     if (!isWritten) result.hidden = true;
   }
 
@@ -72,10 +86,11 @@ async function main() {
     task += 1;  // what the worker still says is of another one
     find("character").textContent = character;
     document.title = `${character} · Calligraphy`;
-    if (decodeURIComponent(location.hash.slice(1)) !== character) history.replaceState(null, "", `#${character}`);
-    lesson?.close();
+    if (asked() !== character) history.replaceState(null, "", `#${character}`);
+    const before = lesson;
     lesson = new Lesson(library, set, character, settings, paper, pointer,
                         { hint: showHint, changed: showProgress, written: judge });
+    before?.close();
   }
 
   /** @param {Partial<import("./lesson.js").Settings>} changed */
@@ -86,9 +101,11 @@ async function main() {
   }
 
   function beginAsked() {
-    const asked = decodeURIComponent(location.hash.slice(1));
-    begin(characters.includes(asked) ? asked : characters[0]);
-    if (asked && asked !== lesson.character) find("progress").textContent = `${asked} is not among these characters`;
+    const character = asked();
+    begin(characters.includes(character) ? character : characters[0]);
+    if (character && character !== lesson.character) {
+      find("progress").textContent = `${character} is not among the ${characters.length} characters`;
+    }
   }
 
   offer("modes", Object.fromEntries(Object.entries(modes).map(([mode, { name }]) => [mode, name])), "guided",

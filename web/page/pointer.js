@@ -9,6 +9,8 @@
  * @property {number | undefined} pressure from 0 to 1; undefined: it does not measure it
  */
 
+const restOfHand = 1500;  // for so long after a pen was seen, a touch is the hand that holds it [ms]
+
 export class Pointer {
   /**
    * @param {HTMLElement} element
@@ -20,7 +22,8 @@ export class Pointer {
     this.paper = paper;
     this.wake = wake;
     this.id = /** @type {number | undefined} */ (undefined);  // of the pointer that is down
-    this.hasPen = false;  // has been seen: the hand that holds it is no finger that writes
+    this.type = "";            // its kind
+    this.penTime = -Infinity;  // when a pen was last seen [ms]
     element.addEventListener("pointerdown", (event) => this.#begin(event));
     element.addEventListener("pointermove", (event) => this.#move(event));
     for (const type of /** @type {const} */ (["pointerup", "pointercancel"])) {
@@ -37,16 +40,23 @@ export class Pointer {
 
   /** @param {PointerEvent} event */
   #begin(event) {
-    if (event.pointerType === "pen") this.hasPen = true;
-    const isFinger = event.pointerType === "touch";
-    if (this.id !== undefined || event.button !== 0 || (isFinger && (this.hasPen || !event.isPrimary))) return;
+    const { pointerType, timeStamp } = event;
+    if (pointerType === "pen") this.penTime = timeStamp;
+    const isPalm = pointerType === "touch" && timeStamp - this.penTime < restOfHand;
+    if (event.button !== 0 || isPalm || (pointerType === "touch" && !event.isPrimary)) return;
+    if (this.id !== undefined) {
+      if (this.type !== "touch" || pointerType !== "pen") return;
+      this.#add([event], false);  // a palm was put down before the pen
+    }
     this.id = event.pointerId;
+    this.type = pointerType;
     /** @type {HTMLElement} */ (event.currentTarget).setPointerCapture(event.pointerId);
     this.#add([event], true);
   }
 
   /** @param {PointerEvent} event */
   #move(event) {
+    if (event.pointerType === "pen") this.penTime = event.timeStamp;
     if (this.id !== undefined ? event.pointerId !== this.id : !event.isPrimary) return;
     const coalesced = event.getCoalescedEvents?.() ?? [];
     this.#add(coalesced.length > 0 ? coalesced : [event], this.id !== undefined);

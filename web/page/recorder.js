@@ -2,7 +2,7 @@
 
 const perTick = 14;  // time, status, state, events, character, stroke, pen tip, force, and where the pointer was
 
-/** @typedef {import("../calligraphy_layout.mjs").Structs["tick"]} Tick */
+/** @typedef {import("../calligraphy_layout.js").Structs["tick"]} Tick */
 
 export class Recorder {
   numbers = new Float64Array(perTick * 4096);

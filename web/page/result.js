@@ -39,7 +39,10 @@ export function showResult(element, lesson, { guided, own }) {
 
 /** @param {import("./lesson.js").Lesson} lesson @param {Score} score */
 function remarksOf(lesson, score) {
-  if (score.remarks.length === 0) return create("p", "praise", "No mistakes of order, direction or shape.");
+  if (score.remarks.length === 0) {
+    return create("p", "praise", score.fidelity > 0.85 ? "Order, direction and shape are right."
+      : "Order and direction are right, but the strokes are not in their places.");
+  }
   const list = create("ol", "remarks");
   score.remarks.forEach((remark, i) => {
     const item = create("li"), button = create("button", "", remark.reason);

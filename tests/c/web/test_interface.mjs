@@ -7,7 +7,7 @@ import test from "node:test";
 
 const directory = resolve(process.argv[2]);
 const { CalligraphyError, constants, load } = await import(`${directory}/calligraphy.js`);
-const library = await load(readFileSync(`${directory}/calligraphy.wasm`));
+const library = await load(readFileSync(`${directory}/calligraphy_module.wasm`));
 
 /** Whether the function throws a CalligraphyError with this status, and a text that matches. */
 function refuses(run, status, pattern) {
@@ -22,7 +22,7 @@ const mappingOnDesk = library.struct("mapping");
 library.page_mapping(page, constants.DESK, 1, mappingOnDesk);
 const device = library.pointer_device_create(profile, null, null, mappingOnDesk);
 
-test("what is loaded is bytes", () => assert.rejects(load("calligraphy.wasm"), /load: expected the bytes/));
+test("what is loaded is bytes", () => assert.rejects(load("calligraphy_module.wasm"), /load: expected the bytes/));
 
 test("the version is a text", () => assert.match(library.version(), /^\d+\.\d+\.\d+$/));
 
@@ -276,7 +276,7 @@ test("memory may grow", () => {
 test("the block of docs/c.md guides a pen that begins where the first stroke does", async () => {
   const blocks = readFileSync(new URL("../../../docs/c.md", import.meta.url), "utf8").match(/```js\n.*?```/gs);
   assert.equal(blocks.length, 1);
-  const bytes = 'load((await import("node:fs")).readFileSync(new URL("calligraphy.wasm", import.meta.url)))';
+  const bytes = 'load((await import("node:fs")).readFileSync(new URL("calligraphy_module.wasm", import.meta.url)))';
   const source = blocks[0].slice(6, -3).replace("load()", bytes);
   writeFileSync(`${directory}/block.mjs`, source);
   const block = await import(`${directory}/block.mjs`);

@@ -1,4 +1,4 @@
-// Types of what Emscripten makes of the library (calligraphy.mjs), as far as calligraphy.js uses it.
+// Types of what Emscripten makes of the library (calligraphy_module.js), as far as calligraphy.js uses it.
 
 export interface Module {
   /** All of the memory, anew once it has grown. */
