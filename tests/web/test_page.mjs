@@ -102,10 +102,10 @@ testPage("strokes backwards, out of order and lifted midway are refused, and rem
     await dueIs(tab, stroke);
     assert.match(await tab.text("#hint"), hint);
   };
-  await isRefused(backwards(yong[0]), 1, /at the stroke's end/);
+  await isRefused(backwards(yong[0]), 1, /^backwards/);
   await isRefused(yong[3], 1, /another stroke's start/);
   await tab.write(yong[0]);
-  await isRefused(beginningOf(yong[1], 0.5), 2, /lifted before the end of the stroke/);
+  await isRefused(beginningOf(yong[1], 0.5), 2, /^lifted before its end/);
   await tab.writeAll(yong.slice(1));
   await isWritten(tab);
   const { remarks } = await tab.result();
@@ -150,6 +150,49 @@ testPage("a mouse writes wider when it is slow; a pen does not", { character: "�
   assert.ok(slowPen < 1.1 * quickPen, `${slowPen} and ${quickPen} pixels with a pen`);
 });
 
+testPage("ink that goes on after the end of a stroke belongs to none", { character: "三" }, async (tab) => {
+  await tab.choose("modes", "vision");
+  const [first, second] = parts.strokesOf("三");
+  await tab.write(first);
+  const count = await tab.countPixels("ink");
+  await tab.click("#again");
+  await tab.write([...first, ...second]);
+  assert.equal(await progress(tab), "Stroke 2 of 3");
+  assert.ok(await tab.countPixels("ink") < 1.3 * count);
+});
+
+testPage("a stroke written from start to end on another way is told so", { character: "口" }, async (tab) => {
+  const [first, second] = parts.strokesOf("口");
+  await tab.write(first);
+  await tab.write([second[0], second.at(-1)]);
+  assert.equal(await tab.text("#hint"), "not along the stroke");
+});
+
+testPage("a finger writes some time after a pen, and not beside it", { character: "一" }, async (tab) => {
+  const [path] = parts.strokesOf("一");
+  await tab.write(path);
+  await tab.click("#again");
+  await tab.write(path, { as: "touch" });
+  assert.equal(await progress(tab), "Stroke 1 of 1");
+  await tab.pass(2000);
+  await tab.write(path, { as: "touch" });
+  await isWritten(tab);
+});
+
+for (const [width, height] of [[320, 640], [768, 1024], [1024, 768]]) {
+  testPage(`at ${width} by ${height}, paper and hints fit`, { size: { width, height } }, async (tab) => {
+    const paper = await tab.page.locator("#paper").boundingBox();
+    assert.ok(paper.width >= 0.6 * Math.min(width, height), `the paper is ${paper.width} wide`);
+    const corner = parts.sheet - 1e-3;
+    for (const place of [[1e-3, 1e-3], [corner, corner]]) {
+      await tab.write([place, [parts.sheet / 2, place[1]], place]);
+      const hint = await tab.page.locator("#hint").boundingBox();
+      assert.ok(hint.x >= paper.x && hint.x + hint.width <= paper.x + paper.width, "across");
+      assert.ok(hint.y >= paper.y && hint.y + hint.height <= paper.y + paper.height, "down");
+    }
+  });
+}
+
 testPage("a stroke that was missed twice is shown, and can be skipped", {}, async (tab) => {
   await tab.choose("modes", "memory");
   const shown = () => tab.countPixels("sheet", { colour: colours.due });
@@ -163,7 +206,7 @@ testPage("a stroke that was missed twice is shown, and can be skipped", {}, asyn
   assert.equal(await shown(), 0);
   assert.ok(await tab.countPixels("ink", { colour: colours.skipped }) > 0);
   await tab.writeAll(yong.slice(1));
-  await isWritten(tab);
+  assert.equal(await progress(tab), "4 of 5 strokes written");
   const { remarks } = await tab.result();
   assert.ok(remarks.some((remark) => /stroke 1 .*was not written/.test(remark)), remarks.join("; "));
 });
