@@ -108,7 +108,8 @@ testPage("strokes backwards, out of order and lifted midway are refused, and rem
   await isRefused(beginningOf(yong[1], 0.5), 2, /^lifted before its end/);
   await tab.writeAll(yong.slice(1));
   await isWritten(tab);
-  const { remarks } = await tab.result();
+  const { rows, remarks } = await tab.result();
+  assert.equal(rows["Right at once"], "3 of 5");
   assert.equal(remarks.length, 3, remarks.join("; "));
   assert.match(remarks[0], /backwards/);
   const numbers = await tab.countPixels("marks"), marks = new Set();

@@ -51,6 +51,8 @@ export class Lesson {
   /** @type {number[]} */
   skipped = [];  // strokes
   misses = 0;    // of the stroke that is due
+  /** @type {Set<number>} */
+  missed = new Set();  // strokes that were skipped or written wrongly first
   isWritten = false;
 
   brush = new Brush();
@@ -125,6 +127,7 @@ export class Lesson {
     const stroke = this.desk.due;
     if (this.isWritten || !this.desk.skip()) return;
     this.skipped.push(stroke);
+    this.missed.add(stroke);
     this.animations.clear();
     this.#strokeIsOver();
     this.paper.fillStroke("ink", this.desk.strokes[stroke], colours.skipped);
@@ -298,6 +301,7 @@ export class Lesson {
   /** @param {PenDown} penDown */
   #refuse(penDown) {
     ++this.misses;
+    this.missed.add(this.desk.due);
     const [x, y] = this.tip, shows = this.misses >= missesUntilShown;
     this.#fade(penDown);
     this.#flash(this.desk.strokes[this.desk.due], () => shows && this.#demonstrate(this.desk.due));

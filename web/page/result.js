@@ -19,8 +19,7 @@ export function showResult(element, lesson, { guided, own }) {
   const rows = [
     ["Strokes", `${guided.strokes_completed} of ${guided.stroke_count}`, `${percent(guided.coverage)} of their length`],
     ["Off the strokes", ofSquare(guided.rms_error), isGuided ? `your hand alone: ${ofSquare(own.rms_error)}` : ""],
-    ["In order", percent(guided.external_sequence), ""],
-    ["In the right direction", percent(guided.internal_sequence), ""],
+    ["Right at once", `${guided.stroke_count - lesson.missed.size} of ${guided.stroke_count}`, ""],
     ["Time", Number.isNaN(guided.time) ? "not completed" : `${guided.time.toFixed(1)} s`, ""],
   ];
   const score = create("p", "score", String(Math.round(100 * guided.fidelity)));
