@@ -5,9 +5,11 @@ import { constants } from "../calligraphy.js";
 /** Edge of the character's square, and the margin around it [m]. */
 export const em = 0.04, margin = 0.1 * em, sheet = em + 2 * margin;
 
-const grip = { mass: 0.05, damping: 6, stiffness: 300 };  // of a hand that is quick and does not swing [kg, N s/m, N/m]
+// A light and well damped hand, which follows the pointer closely round corners, too.
+const grip = { mass: 0.01, damping: 12, stiffness: 300 };  // [kg, N s/m, N/m]
+const settling = 0.03;  // of the guide: no real hand is thrown by it [s]
 // A pointer that is put down or lifted takes the pen along within some 20 ms.
-const following = { smoothing_time: 0.016, max_speed: 2, lifting_speed: 0.6, hover_height: 0.0045 };
+const following = { smoothing_time: 0.01, max_speed: 2, lifting_speed: 0.6, hover_height: 0.0045 };
 const pressed = 0.5;  // pressure of a pen on the paper, whatever its own: it must touch the paper
 
 /**
@@ -68,6 +70,7 @@ export class Desk {
     options.guidance_stiffness = (grip.stiffness * strength) / (1 - strength);
     options.guidance_wrong_way_stiffness *= Math.min(1, 2 * strength);
     options.guidance_damping *= Math.min(1, 2 * strength);
+    options.guidance_fade_in = settling;
     options.guidance_to_start = Number(strength > 0);
     const renderer = library.renderer_create(this.page, this.mapping, this.profile, options);
     for (let stroke = 0; stroke < this.due; ++stroke) library.renderer_skip_stroke(renderer);

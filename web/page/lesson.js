@@ -22,6 +22,7 @@ import { Recorder } from "./recorder.js";
  * @property {InkLine} stray ink after that, of no stroke
  * @property {number} begin [s]
  * @property {number} hint why it was not guided, a constants.HINT_...
+ * @property {boolean} isPassed whether its stroke was skipped
  * @property {boolean} isBroken whether it began the stroke and did not finish it
  */
 
@@ -37,6 +38,7 @@ export const modes = {
 const missesUntilShown = 2;
 const tail = 0.12 * em;    // ink farther from where a stroke was finished is no part of it [m]
 const patience = 250;  // time for which a hint must hold before it is shown [ms]
+const longestBounce = 0.15 * em;  // a pointer that is put down this near, with the pen still on the paper, writes on [m]
 const longestWay = 150;  // of the lifted pen across the sheet [ms]
 const rest = 1000;     // time without anything to draw after which no more pictures are drawn [ms]
 const longestGap = 3000;  // between two pictures: what the pen did before is not made up for [ms]
@@ -69,7 +71,6 @@ export class Lesson {
   ownTime = 0;                     // and when [ms]
   isDown = false;                  // the pointer
   hasPointer = false;              // has been seen
-  timeOnWays = 0;                  // of the pen to where a finger was put down [s]
   /** @type {number | undefined} */
   pressure;
 
@@ -122,10 +123,16 @@ export class Lesson {
     return modes[this.settings.mode];
   }
 
+  /** Whether the pen is guided; without, what was written is what the pointer did. */
+  get isGuided() {
+    return this.mode.isGuided && this.settings.strength > 0;
+  }
+
   /** Passes over the stroke that is due. */
   skip() {
     const stroke = this.desk.due;
     if (this.isWritten || !this.desk.skip()) return;
+    if (this.penDown) this.penDown.isPassed = true;
     this.skipped.push(stroke);
     this.missed.add(stroke);
     this.animations.clear();
@@ -151,7 +158,7 @@ export class Lesson {
     this.lastActivity = performance.now();
     if (this.isAwake) return;
     this.isAwake = true;
-    this.time = this.lastActivity;
+    this.time = Math.max(this.time, this.lastActivity);
     requestAnimationFrame((now) => this.#picture(now));
   }
 
@@ -209,7 +216,10 @@ export class Lesson {
       if (this.settings.mode === "watch" || this.isWritten) continue;
       const begins = sample.isDown && !this.isDown;
       if (begins) {
-        if (this.desk.isAwayFrom(sample.x, sample.y)) this.#bring(sample.x, sample.y);
+        const jump = Math.hypot(sample.x - this.ownAt[0], sample.y - this.ownAt[1]);
+        const isAway = this.isOnPaper ? jump > longestBounce : this.desk.isAwayFrom(sample.x, sample.y);
+        if (isAway) this.#bring(sample.x, sample.y);
+        if (!this.isOnPaper) this.own = [];
         this.own.push(new InkLine());
         this.ownBrush = new Brush();
       }
@@ -217,7 +227,7 @@ export class Lesson {
         const seconds = begins ? 0 : Math.max(1e-3, (sample.time - this.ownTime) * 1e-3);
         const way = Math.hypot(sample.x - this.ownAt[0], sample.y - this.ownAt[1]);
         const width = this.ownBrush.press(sample.pressure, seconds > 0 ? way / seconds : 0, seconds);
-        this.own.at(-1)?.add(sample.x, sample.y, width, this.paper.pixel);
+        if (!this.#isStray(sample.x, sample.y)) this.own.at(-1)?.add(sample.x, sample.y, width, this.paper.pixel);
         this.ownAt = [sample.x, sample.y];
         this.ownTime = sample.time;
       }
@@ -231,26 +241,21 @@ export class Lesson {
   /** Lifts the pen and takes it to where a finger touches the paper, in no time of the writer's.
    * @param {number} x @param {number} y */
   #bring(x, y) {
-    const advance = () => {
-      this.timeOnWays += 1e-3;
-      this.#advance();
-    };
-    for (let i = 0; i < longestWay && this.isOnPaper; ++i) advance();
+    for (let i = 0; i < longestWay && this.isOnPaper; ++i) this.#advance();
     this.desk.move(x, y, false);
-    for (let i = 0; i < longestWay; ++i) advance();
+    for (let i = 0; i < longestWay; ++i) this.#advance();
   }
 
   #advance() {
     const { desk, brush } = this, before = desk.due;
     const tick = desk.advance(), [x, y] = tick.pen_tip, { events } = tick;
     const isOnPaper = tick.state !== constants.SEPARATION;
-    const time = tick.time - this.timeOnWays;
+    const time = this.time * 1e-3;  // of the writer, who may think longer than pictures are drawn
     if (events & constants.CONTACT) this.#putDown(time);
     if (isOnPaper && this.penDown) {
       const speed = Math.hypot(x - this.tip[0], y - this.tip[1]) * 1000;
-      const { finish, guided, stray } = this.penDown;
-      const isStray = finish && Math.hypot(x - finish[0], y - finish[1]) > tail;
-      (isStray ? stray : guided).add(x, y, brush.press(this.pressure, speed, 1e-3), 0.7 * this.paper.pixel);
+      const { guided, stray } = this.penDown;
+      (this.#isStray(x, y) ? stray : guided).add(x, y, brush.press(this.pressure, speed, 1e-3), 0.7 * this.paper.pixel);
     }
     if (isOnPaper || events !== 0) this.recorder.add(tick, time, this.ownAt);
     this.tip = [x, y];
@@ -262,6 +267,13 @@ export class Lesson {
     }
     if (events & constants.LIFT) this.#lift();
     if (desk.due !== before) this.#strokeIsOver();
+  }
+
+  /** Whether ink here belongs to no stroke, because the pen-down's was finished elsewhere. @param {number} x
+   * @param {number} y */
+  #isStray(x, y) {
+    const finish = this.penDown?.finish;
+    return finish !== undefined && Math.hypot(x - finish[0], y - finish[1]) > tail;
   }
 
   /** Another one is due. */
@@ -278,7 +290,7 @@ export class Lesson {
     this.display.hint("", 0, 0);
     this.brush = new Brush();
     this.penDown = { guided: new InkLine(), own: [], finish: undefined, stray: new InkLine(), begin,
-                     hint: constants.HINT_NONE, isBroken: false };
+                     hint: constants.HINT_NONE, isPassed: false, isBroken: false };
     this.penDowns.push(this.penDown);
   }
 
@@ -292,7 +304,7 @@ export class Lesson {
     if (penDown.finish) {
       this.#drawLines("ink", penDown, true);
       if (this.desk.due === this.desk.strokes.length) this.#finish();
-    } else if (!this.isWritten) {
+    } else if (!this.isWritten && !penDown.isPassed) {
       this.#refuse(penDown);
     }
     if (this.isGuideLate) this.#guide();
@@ -368,7 +380,7 @@ export class Lesson {
   /** The ink that is to be seen of a pen-down. @param {"ink" | "pen"} layer
    * @param {{guided: InkLine, own: InkLine[]}} penDown @param {boolean} isWhole */
   #drawLines(layer, { guided, own }, isWhole) {
-    const context = this.paper.contexts[layer], { ink } = this.settings;
+    const context = this.paper.contexts[layer], ink = this.isGuided ? this.settings.ink : "own";
     const draw = (/** @type {InkLine} */ line, /** @type {string} */ colour, share = 1) =>
       (isWhole ? line.drawAll(context, colour, share) : line.drawOn(context, colour, share));
     if (ink !== "own") draw(guided, colours.ink);

@@ -78,19 +78,26 @@ async function main() {
     worker.postMessage({ id: ++task, character, tolerance, recorded }, [recorded.buffer]);
   }
   worker.onmessage = ({ data }) => {
-    if (data.id === task && lesson.isWritten) showResult(result, lesson, data);
+    if (data.id !== task || !lesson.isWritten) return;
+    if (data.error) find("progress").textContent = `It cannot be judged: ${data.error}`;
+    else showResult(result, lesson, data);
   };
 
   /** @param {string} character */
   function begin(character) {
+    const before = lesson;
+    try {
+      lesson = new Lesson(library, set, character, settings, paper, pointer,
+                          { hint: showHint, changed: showProgress, written: judge });
+    } catch (error) {
+      find("progress").textContent = `${character} cannot be written: ${/** @type {Error} */ (error).message}`;
+      return;
+    }
+    before?.close();
     task += 1;  // what the worker still says is of another one
     find("character").textContent = character;
     document.title = `${character} · Calligraphy`;
     if (asked() !== character) history.replaceState(null, "", `#${character}`);
-    const before = lesson;
-    lesson = new Lesson(library, set, character, settings, paper, pointer,
-                        { hint: showHint, changed: showProgress, written: judge });
-    before?.close();
   }
 
   /** @param {Partial<import("./lesson.js").Settings>} changed */

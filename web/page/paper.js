@@ -200,7 +200,7 @@ export class Paper {
 
   /** @returns {boolean} whether it changed */
   #resize() {
-    const wanted = Math.max(1, Math.round(this.element.clientWidth * Math.min(window.devicePixelRatio || 1, 3)));
+    const wanted = Math.max(1, Math.round(this.element.clientWidth * Math.min(window.devicePixelRatio || 1, 2)));
     if (wanted === this.pixels) return false;
     this.pixels = wanted;
     for (const context of Object.values(this.contexts)) {

@@ -26,7 +26,7 @@ export class Pointer {
     this.penTime = -Infinity;  // when a pen was last seen [ms]
     element.addEventListener("pointerdown", (event) => this.#begin(event));
     element.addEventListener("pointermove", (event) => this.#move(event));
-    for (const type of /** @type {const} */ (["pointerup", "pointercancel"])) {
+    for (const type of /** @type {const} */ (["pointerup", "pointercancel", "lostpointercapture"])) {
       element.addEventListener(type, (event) => this.#end(event));
     }
     element.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });  // no scrolling

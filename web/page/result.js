@@ -15,14 +15,16 @@ const ofSquare = (/** @type {number} */ metres) =>
  * @param {import("./score_worker.js").Judgement} judgement
  */
 export function showResult(element, lesson, { guided, own }) {
-  const isGuided = lesson.mode.isGuided && lesson.settings.strength > 0;
+  const written = lesson.isGuided ? guided : own;
   const rows = [
-    ["Strokes", `${guided.strokes_completed} of ${guided.stroke_count}`, `${percent(guided.coverage)} of their length`],
-    ["Off the strokes", ofSquare(guided.rms_error), isGuided ? `your hand alone: ${ofSquare(own.rms_error)}` : ""],
-    ["Right at once", `${guided.stroke_count - lesson.missed.size} of ${guided.stroke_count}`, ""],
-    ["Time", Number.isNaN(guided.time) ? "not completed" : `${guided.time.toFixed(1)} s`, ""],
+    ["Strokes", `${written.strokes_completed} of ${written.stroke_count}`,
+     `${percent(written.coverage)} of their length`],
+    ["Off the strokes", ofSquare(written.rms_error),
+     lesson.isGuided ? `your hand alone: ${ofSquare(own.rms_error)}` : ""],
+    ["Right at once", `${written.stroke_count - lesson.missed.size} of ${written.stroke_count}`, ""],
+    ["Time", Number.isNaN(written.time) ? "not completed" : `${written.time.toFixed(1)} s`, ""],
   ];
-  const score = create("p", "score", String(Math.round(100 * guided.fidelity)));
+  const score = create("p", "score", String(Math.round(100 * written.fidelity)));
   score.append(create("small", "", " of 100"));
   const table = create("table");
   for (const [name, value, more] of rows) {
@@ -31,9 +33,9 @@ export function showResult(element, lesson, { guided, own }) {
     row.append(create("th", "", name), cell);
     table.append(row);
   }
-  element.replaceChildren(score, table, remarksOf(lesson, guided));
+  element.replaceChildren(score, table, remarksOf(lesson, written));
   element.hidden = false;
-  lesson.point(() => markRemarks(lesson, guided));
+  lesson.point(() => markRemarks(lesson, written));
 }
 
 /** @param {import("./lesson.js").Lesson} lesson @param {Score} score */
@@ -70,7 +72,8 @@ function markRemarks(lesson, score, chosen) {
       context.globalAlpha = 0.45;
       if (template) paper.fillStroke("marks", template, colours.flash);
       context.globalAlpha = 0.8;
-      penDown?.guided.drawAll(context, colours.wrong);
+      const lines = lesson.isGuided ? [penDown?.guided] : penDown?.own ?? [];
+      for (const line of lines) line?.drawAll(context, colours.wrong);
       context.globalAlpha = 1;
     }
     const first = penDown?.guided.points[0];

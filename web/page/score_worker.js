@@ -22,17 +22,31 @@ import { replay } from "./recorder.js";
 const ready = load().then(async (library) => ({ library, characters: await openCharacters(library) }));
 
 self.onmessage = async (/** @type {MessageEvent<Task>} */ { data }) => {
-  const { library, characters } = await ready;
-  const page = layOut(library, characters.set, data.character);
+  try {
+    const { library, characters } = await ready;
+    self.postMessage({ id: data.id, ...judged(library, characters.set, data) });
+  } catch (error) {
+    self.postMessage({ id: data.id, error: error instanceof Error ? error.message : String(error) });
+  }
+};
+
+/** @param {import("../calligraphy.js").Library} library @param {number} set @param {Task} task */
+function judged(library, set, { character, recorded, tolerance }) {
+  const page = layOut(library, set, character);
   const tick = library.struct("tick");
   const score = (/** @type {boolean} */ isOwn) => {
     const recording = library.recording_create(page, 1000);
-    replay(data.recorded, tick, isOwn, () => library.recording_add(recording, tick));
-    const result = library.score(recording, 0, data.tolerance);
-    library.free(recording);
-    return result;
+    try {
+      replay(recorded, tick, isOwn, () => library.recording_add(recording, tick));
+      return library.score(recording, 0, tolerance);
+    } finally {
+      library.free(recording);
+    }
   };
-  self.postMessage({ id: data.id, guided: score(false), own: score(true) });
-  library.discard(tick);
-  library.free(page);
-};
+  try {
+    return { guided: score(false), own: score(true) };
+  } finally {
+    library.discard(tick);
+    library.free(page);
+  }
+}
