@@ -172,10 +172,12 @@ export class Tab {
    * @param {(share: number) => number} [how.force] pressure at a share of the way
    * @param {number} [how.speed] [m/s]
    * @param {number} [how.dwell] time from the first touch to the first movement, or 0: that between any two events [ms]
+   * @param {number} [how.rest] time from the last movement to the lift [ms]
+   * @param {number} [how.pause] time before the first touch and after the lift [ms]
    * @param {() => Promise<void>} [how.midway] called halfway
    */
   async write(path, { as = "pen", beside = [0, 0], force = (share) => 0.3 + 0.5 * Math.sin(Math.PI * share),
-                      speed = 0.07, dwell = 0, midway } = {}) {
+                      speed = 0.07, dwell = 0, pause = 150, rest = 60, midway } = {}) {
     const interval = 8;  // between two events [ms]
     const points = resampled(path, speed * interval * 1e-3), last = points.length - 1;
     const paper = await this.page.locator("#paper").boundingBox();
@@ -184,7 +186,7 @@ export class Tab {
       y: paper.y + (1 - (y + beside[1]) / this.sheet) * paper.height,
     }));
     await send.hover(points[0]);
-    await this.pass(150);
+    await this.pass(pause);
     await send.press(points[0], force(0));
     await this.pass(dwell);
     for (let i = 1; i <= last; ++i) {
@@ -192,9 +194,9 @@ export class Tab {
       if (i === Math.ceil(last / 2)) await midway?.();
       await send.move(points[i], Math.max(0.02, force(i / last)));
     }
-    await this.pass(60);
+    await this.pass(rest);
     await send.release(points[last]);
-    await this.pass(150);
+    await this.pass(pause);
   }
 
   #sender(as, place) {

@@ -137,6 +137,30 @@ for (const as of ["mouse", "touch"]) {
   });
 }
 
+testPage("strokes that follow each other at once are judged", {}, async (tab) => {
+  for (const path of yong) await tab.write(path, { as: "touch", pause: 10 });
+  await tab.pass(200);
+  await isWritten(tab);
+  assert.ok((await tab.result()).score > 0);
+});
+
+testPage("a finger that bounces writes on", { character: "一" }, async (tab) => {
+  const points = beginningOf(parts.strokesOf("一")[0], 1), half = points.length / 2;
+  await tab.write(points.slice(0, half), { as: "touch", pause: 0, rest: 0 });
+  await tab.write(points.slice(half), { as: "touch", pause: 4 });
+  await tab.pass(200);
+  await isWritten(tab);
+});
+
+testPage("the time of a character includes what the pupil thought about", { character: "二" }, async (tab) => {
+  const [first, second] = parts.strokesOf("二");
+  await tab.write(first);
+  await tab.pass(8000);
+  await tab.write(second);
+  const { rows } = await tab.result();
+  assert.ok(Number.parseFloat(rows.Time) > 8, rows.Time);
+});
+
 testPage("a mouse writes wider when it is slow; a pen does not", { character: "一" }, async (tab) => {
   const [path] = parts.strokesOf("一");
   const pixels = async (how) => {
