@@ -4,6 +4,7 @@ import { Animations } from "./animations.js";
 import { Desk, em, sheet } from "./desk.js";
 import { Brush, InkLine } from "./ink.js";
 import { colours } from "./paper.js";
+import { PenDown } from "./pen_down.js";
 import { Recorder } from "./recorder.js";
 
 /**
@@ -14,16 +15,6 @@ import { Recorder } from "./recorder.js";
  * @property {number} strength of the guide, from 0 to 0.8
  * @property {number} tolerance such as constants.TOLERANCE_NORMAL
  * @property {"guided" | "own" | "both"} ink which ink is shown
- *
- * @typedef {object} PenDown
- * @property {InkLine} guided where the guided pen was
- * @property {InkLine[]} own where the pointer was
- * @property {[number, number] | undefined} finish where it finished a stroke; undefined: it did not [m]
- * @property {InkLine} stray ink after that, of no stroke
- * @property {number} begin [s]
- * @property {number} hint why it was not guided, a constants.HINT_...
- * @property {boolean} isPassed whether its stroke was skipped
- * @property {boolean} isBroken whether it began the stroke and did not finish it
  */
 
 /** What each mode shows, and whether it guides. */
@@ -36,12 +27,11 @@ export const modes = {
 };
 
 const missesUntilShown = 2;
-const tail = 0.12 * em;    // ink farther from where a stroke was finished is no part of it [m]
-const patience = 250;  // time for which a hint must hold before it is shown [ms]
-const longestBounce = 0.15 * em;  // a pointer that is put down this near, with the pen still on the paper, writes on [m]
-const longestWay = 150;  // of the lifted pen across the sheet [ms]
-const rest = 1000;     // time without anything to draw after which no more pictures are drawn [ms]
+const patience = 250;     // time for which a hint must hold before it is shown [ms]
+const rest = 1000;        // time without anything to draw after which no more pictures are drawn [ms]
 const longestGap = 3000;  // between two pictures: what the pen did before is not made up for [ms]
+const longestWay = 150;   // of the lifted pen across the sheet [ms]
+const longestBounce = 0.15 * em;  // a pointer that is put down this near, with the pen still on the paper, writes on [m]
 
 export class Lesson {
   animations = new Animations();
@@ -166,7 +156,7 @@ export class Lesson {
     this.#drawSheet();
     this.#drawInk();
     this.paper.clear("pen");
-    if (this.penDown) this.#drawLines("pen", { ...this.penDown, own: this.own }, true);
+    if (this.penDown) this.#drawLines("pen", { guided: this.penDown.guided, own: this.own }, true);
     this.wake();
   }
 
@@ -227,7 +217,7 @@ export class Lesson {
         const seconds = begins ? 0 : Math.max(1e-3, (sample.time - this.ownTime) * 1e-3);
         const way = Math.hypot(sample.x - this.ownAt[0], sample.y - this.ownAt[1]);
         const width = this.ownBrush.press(sample.pressure, seconds > 0 ? way / seconds : 0, seconds);
-        if (!this.#isStray(sample.x, sample.y)) this.own.at(-1)?.add(sample.x, sample.y, width, this.paper.pixel);
+        if (!this.penDown?.isStray(sample.x, sample.y)) this.own.at(-1)?.add(sample.x, sample.y, width, this.paper.pixel);
         this.ownAt = [sample.x, sample.y];
         this.ownTime = sample.time;
       }
@@ -254,8 +244,8 @@ export class Lesson {
     if (events & constants.CONTACT) this.#putDown(time);
     if (isOnPaper && this.penDown) {
       const speed = Math.hypot(x - this.tip[0], y - this.tip[1]) * 1000;
-      const { guided, stray } = this.penDown;
-      (this.#isStray(x, y) ? stray : guided).add(x, y, brush.press(this.pressure, speed, 1e-3), 0.7 * this.paper.pixel);
+      const { penDown } = this, ink = penDown.isStray(x, y) ? penDown.stray : penDown.guided;
+      ink.add(x, y, brush.press(this.pressure, speed, 1e-3), 0.7 * this.paper.pixel);
     }
     if (isOnPaper || events !== 0) this.recorder.add(tick, time, this.ownAt);
     this.tip = [x, y];
@@ -267,13 +257,6 @@ export class Lesson {
     }
     if (events & constants.LIFT) this.#lift();
     if (desk.due !== before) this.#strokeIsOver();
-  }
-
-  /** Whether ink here belongs to no stroke, because the pen-down's was finished elsewhere. @param {number} x
-   * @param {number} y */
-  #isStray(x, y) {
-    const finish = this.penDown?.finish;
-    return finish !== undefined && Math.hypot(x - finish[0], y - finish[1]) > tail;
   }
 
   /** Another one is due. */
@@ -289,8 +272,7 @@ export class Lesson {
     this.animations.clear();
     this.display.hint("", 0, 0);
     this.brush = new Brush();
-    this.penDown = { guided: new InkLine(), own: [], finish: undefined, stray: new InkLine(), begin,
-                     hint: constants.HINT_NONE, isPassed: false, isBroken: false };
+    this.penDown = new PenDown(begin);
     this.penDowns.push(this.penDown);
   }
 
@@ -314,25 +296,12 @@ export class Lesson {
   #refuse(penDown) {
     ++this.misses;
     this.missed.add(this.desk.due);
-    const [x, y] = this.tip, shows = this.misses >= missesUntilShown;
+    const stroke = this.desk.strokes[this.desk.due], shows = this.misses >= missesUntilShown;
     this.#fade(penDown);
-    this.#flash(this.desk.strokes[this.desk.due], () => shows && this.#demonstrate(this.desk.due));
-    this.display.hint(this.#whyRefused(penDown), x, y);
+    this.#flash(stroke, () => shows && this.#demonstrate(this.desk.due));
+    this.display.hint(penDown.whyNot(stroke, this.tip) ?? this.#words(penDown.hint), this.tip[0], this.tip[1]);
     if (shows) this.#drawSheet();
     this.display.changed(this);
-  }
-
-  /** @param {PenDown} penDown */
-  #whyRefused({ hint, isBroken, guided }) {
-    const { path, length, start } = this.desk.strokes[this.desk.due], [x, y] = this.tip;
-    const toStart = Math.hypot(x - start[0], y - start[1]);
-    const toEnd = Math.hypot(x - path[path.length - 2], y - path[path.length - 1]);
-    if (isBroken) {
-      return toEnd < 0.2 * em || guided.length > 0.8 * length ? "not along the stroke" : "lifted before its end";
-    }
-    if (hint === constants.HINT_AT_END && toStart < toEnd) return "backwards: the stroke begins here";
-    if (hint !== constants.HINT_NONE) return this.#words(hint);
-    return this.mode.hasStart ? "too short: write on, along the arrow" : "too short: write on";
   }
 
   /** The words for a hint where the pen is now, without the millimetres of a page that the screen shows at another
@@ -359,15 +328,13 @@ export class Lesson {
     this.hint = kind === this.hint.kind ? { kind, age: this.hint.age + 1 } : { kind, age: 0 };
     if (kind === constants.HINT_NONE) return;
     if (this.hint.age === patience) this.display.hint(this.#words(kind), this.tip[0], this.tip[1]);
-    // The first one says where the pen was put down; that it was another stroke's start is seen later.
-    const isReason = this.penDown?.hint === constants.HINT_NONE || kind === constants.HINT_ANOTHER_STROKE;
-    if (this.penDown && isReason && kind !== constants.HINT_LIFT_FIRST) this.penDown.hint = kind;
+    this.penDown?.takeHint(kind);
   }
 
   /** @param {number} now */
   #draw(now) {
     const { paper, penDown } = this;
-    if (penDown) this.#drawLines("pen", { ...penDown, own: this.own }, false);
+    if (penDown) this.#drawLines("pen", { guided: penDown.guided, own: this.own }, false);
     penDown?.stray.drawOn(paper.contexts.pen, colours.skipped);
     paper.clear("marks");
     const due = this.desk.strokes[this.desk.due];

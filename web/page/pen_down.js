@@ -1,0 +1,54 @@
+// What the pen did from one touch of the paper to the next lift.
+import { constants } from "../calligraphy.js";
+import { em } from "./desk.js";
+import { InkLine } from "./ink.js";
+
+const tail = 0.12 * em;  // ink farther from where a stroke was finished is no part of it [m]
+
+export class PenDown {
+  guided = new InkLine();  // where the guided pen was
+  /** @type {InkLine[]} */
+  own = [];                // where the pointer was
+  stray = new InkLine();   // of the guided pen, after it had finished a stroke, of no stroke
+  /** @type {[number, number] | undefined} */
+  finish;                  // where it finished a stroke; undefined: it did not [m]
+  isPassed = false;        // its stroke was skipped
+  isBroken = false;        // it began the stroke, and did not finish it
+  hint = constants.HINT_NONE;  // why it was not guided
+
+  /** @param {number} begin [s] */
+  constructor(begin) {
+    this.begin = begin;
+  }
+
+  /** Whether ink here belongs to no stroke, because its own was finished elsewhere. @param {number} x
+   * @param {number} y */
+  isStray(x, y) {
+    return this.finish !== undefined && Math.hypot(x - this.finish[0], y - this.finish[1]) > tail;
+  }
+
+  /**
+   * Takes a hint. The first one says where the pen was put down; that it was another stroke's start is seen later.
+   * @param {number} kind
+   */
+  takeHint(kind) {
+    const isReason = this.hint === constants.HINT_NONE || kind === constants.HINT_ANOTHER_STROKE;
+    if (isReason && kind !== constants.HINT_LIFT_FIRST) this.hint = kind;
+  }
+
+  /**
+   * Why it did not write a stroke; without words where its hint says it.
+   * @param {import("./desk.js").Stroke} stroke
+   * @param {number[]} tip where it was lifted [m]
+   * @returns {string | undefined}
+   */
+  whyNot({ start, path, length }, [x, y]) {
+    const toStart = Math.hypot(x - start[0], y - start[1]);
+    const toEnd = Math.hypot(x - path[path.length - 2], y - path[path.length - 1]);
+    if (this.isBroken) {
+      return toEnd < 0.2 * em || this.guided.length > 0.8 * length ? "not along the stroke" : "lifted before its end";
+    }
+    if (this.hint === constants.HINT_AT_END && toStart < toEnd) return "backwards: the stroke begins here";
+    return this.hint === constants.HINT_NONE ? "too short: write on" : undefined;
+  }
+}
