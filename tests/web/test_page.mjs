@@ -210,7 +210,7 @@ for (const [width, height] of [[320, 640], [768, 1024], [1024, 768]]) {
     assert.ok(paper.width >= 0.6 * Math.min(width, height), `the paper is ${paper.width} wide`);
     const corner = parts.sheet - 1e-3;
     for (const place of [[1e-3, 1e-3], [corner, corner]]) {
-      await tab.write([place, [parts.sheet / 2, place[1]], place]);
+      await tab.write([place, [place[0], parts.sheet / 2], place]);
       const hint = await tab.page.locator("#hint").boundingBox();
       assert.ok(hint.x >= paper.x && hint.x + hint.width <= paper.x + paper.width, "across");
       assert.ok(hint.y >= paper.y && hint.y + hint.height <= paper.y + paper.height, "down");

@@ -1,11 +1,15 @@
-// Says why the page cannot begin where its modules are not loaded at all.
-addEventListener("DOMContentLoaded", () => {
-  const say = (/** @type {string} */ why) => {
-    const progress = document.getElementById("progress");
-    if (progress) progress.textContent = why;
-  };
-  if (location.protocol === "file:") say("This page needs a server: scripts/web.sh --serve");
-  document.querySelector("script[type=module]")?.addEventListener("error", () => {
-    say("The page cannot begin: its modules were not loaded. The console says why.");
-  });
-});
+// Says why the page cannot begin where its modules are not loaded, or are not understood.
+const begun = () => document.body?.dataset.ready !== undefined;
+
+/** @param {string} why */
+const sayWhy = (why) => {
+  const progress = document.getElementById("progress");
+  if (progress) progress.textContent = why;
+  else addEventListener("DOMContentLoaded", () => sayWhy(why));
+};
+
+if (location.protocol === "file:") sayWhy("This page needs a server: scripts/web.sh --serve");
+addEventListener("error", ({ target, message }) => {
+  if (begun() || !(message || target instanceof HTMLScriptElement)) return;
+  sayWhy(`The page cannot begin: ${message || "its modules were not loaded. The console says why"}`);
+}, true);

@@ -10,7 +10,7 @@ export async function openCharacters(library) {
   if (set && list) {
     const handle = library.set_from_memory(set, set.length, "characters.set");
     const known = new Set(listed(library, handle)), wanted = new TextDecoder().decode(list);
-    return { set: handle, characters: [...wanted].filter((each) => known.has(each)), isImported: true };
+    return { set: handle, characters: [...new Set(wanted)].filter((each) => known.has(each)), isImported: true };
   }
   const handle = library.set_built_in();
   return { set: handle, characters: listed(library, handle), isImported: false };

@@ -31,6 +31,7 @@ const patience = 250;     // time for which a hint must hold before it is shown 
 const rest = 1000;        // time without anything to draw after which no more pictures are drawn [ms]
 const longestGap = 3000;  // between two pictures: what the pen did before is not made up for [ms]
 const longestWay = 150;   // of the lifted pen across the sheet [ms]
+const shortestLift = 0.052;  // of a pen; a score takes a shorter one for a bounce [s]
 const longestBounce = 0.15 * em;  // a pointer that is put down this near, with the pen still on the paper, writes on [m]
 
 export class Lesson {
@@ -60,6 +61,7 @@ export class Lesson {
   ownAt = [sheet / 2, sheet / 2];  // where the pointer was last on the paper [m]
   ownTime = 0;                     // and when [ms]
   isDown = false;                  // the pointer
+  mustLift = false;                // it was down when the lesson began
   hasPointer = false;              // has been seen
   /** @type {number | undefined} */
   pressure;
@@ -68,6 +70,8 @@ export class Lesson {
   isAwake = false;
   time = 0;          // of the last tick [ms], as performance.now()
   lastActivity = 0;  // [ms]
+  timeOnPaper = -Infinity;  // of the writer, when the pen was last on the paper [s]
+  addedTime = 0;            // to the writer's, so that quick strokes are told apart [s]
   marks = () => {};  // draws what a remark points at
 
   /**
@@ -87,6 +91,7 @@ export class Lesson {
     this.paper = paper;
     this.pointer = pointer;
     this.display = display;
+    this.mustLift = pointer.isDown;
     this.desk = new Desk(library, set, character);
     this.#guide();
     display.hint("", 0, 0);
@@ -102,9 +107,9 @@ export class Lesson {
     this.desk.free();
   }
 
-  /** Takes other settings, but for the mode. @param {Settings} settings */
+  /** Takes other settings, but for the mode; of what is written, only which ink is shown. @param {Settings} settings */
   change(settings) {
-    this.settings = settings;
+    this.settings = this.isWritten ? { ...this.settings, ink: settings.ink } : settings;
     this.#guide();
     this.redraw();
   }
@@ -203,7 +208,12 @@ export class Lesson {
 
   #takeSamples() {
     for (let sample = this.pointer.take(this.time); sample; sample = this.pointer.take(this.time)) {
-      if (this.settings.mode === "watch" || this.isWritten) continue;
+      this.mustLift &&= sample.isDown;
+      if (this.settings.mode === "watch" || this.isWritten || this.mustLift) continue;
+      if (sample.isPalm && this.penDown) {
+        this.penDown.isPassed = true;
+        this.recorder.count = this.penDown.recorded;
+      }
       const begins = sample.isDown && !this.isDown;
       if (begins) {
         const jump = Math.hypot(sample.x - this.ownAt[0], sample.y - this.ownAt[1]);
@@ -240,14 +250,16 @@ export class Lesson {
     const { desk, brush } = this, before = desk.due;
     const tick = desk.advance(), [x, y] = tick.pen_tip, { events } = tick;
     const isOnPaper = tick.state !== constants.SEPARATION;
-    const time = this.time * 1e-3;  // of the writer, who may think longer than pictures are drawn
-    if (events & constants.CONTACT) this.#putDown(time);
+    if (events & constants.CONTACT) this.#putDown();
+    const time = this.#timeOfWriter();
     if (isOnPaper && this.penDown) {
       const speed = Math.hypot(x - this.tip[0], y - this.tip[1]) * 1000;
       const { penDown } = this, ink = penDown.isStray(x, y) ? penDown.stray : penDown.guided;
       ink.add(x, y, brush.press(this.pressure, speed, 1e-3), 0.7 * this.paper.pixel);
     }
-    if (isOnPaper || events !== 0) this.recorder.add(tick, time, this.ownAt);
+    const isStray = isOnPaper && events === 0 && this.penDown?.isStray(x, y);
+    if ((isOnPaper && !isStray) || events !== 0) this.recorder.add(tick, time, this.ownAt);
+    if (isOnPaper) this.timeOnPaper = time;
     this.tip = [x, y];
     this.isOnPaper = isOnPaper;
     this.#readHint(tick);
@@ -267,12 +279,17 @@ export class Lesson {
     this.display.changed(this);
   }
 
-  /** @param {number} begin [s] */
-  #putDown(begin) {
+  /** Of the writer, who may think longer than pictures are drawn [s]. */
+  #timeOfWriter() {
+    return this.time * 1e-3 + this.addedTime;
+  }
+
+  #putDown() {
+    this.addedTime += Math.max(0, this.timeOnPaper + shortestLift - this.#timeOfWriter());
     this.animations.clear();
     this.display.hint("", 0, 0);
     this.brush = new Brush();
-    this.penDown = new PenDown(begin);
+    this.penDown = new PenDown(this.#timeOfWriter(), this.recorder.count);
     this.penDowns.push(this.penDown);
   }
 
@@ -284,6 +301,7 @@ export class Lesson {
     penDown.own = this.own.splice(0, this.own.length - isDown);
     this.paper.clear("pen");
     if (penDown.finish) {
+      this.display.hint("", 0, 0);
       this.#drawLines("ink", penDown, true);
       if (this.desk.due === this.desk.strokes.length) this.#finish();
     } else if (!this.isWritten && !penDown.isPassed) {
@@ -317,6 +335,7 @@ export class Lesson {
   #finish() {
     this.isWritten = true;
     this.isDown = false;
+    this.desk.move(this.tip[0], this.tip[1], false);
     this.#drawSheet();
     this.display.changed(this);
     this.display.written(this);

@@ -27,7 +27,7 @@ function asked() {
   try {
     return decodeURIComponent(location.hash.slice(1));
   } catch {
-    return "";
+    return location.hash.slice(1);
   }
 }
 
@@ -59,15 +59,16 @@ async function main() {
   }
 
   /** @param {Lesson} lesson */
-  function showProgress({ desk, misses, skipped, isWritten, mode, settings }) {
+  function showProgress({ desk, misses, skipped, isWritten, isGuided, mode, settings }) {
     const isWatched = settings.mode === "watch", count = desk.strokes.length;
-    find("progress").textContent = isWatched ? `${count} strokes` : !isWritten ? `Stroke ${desk.due + 1} of ${count}`
+    find("progress").textContent = isWatched ? `${count} strokes`
+      : !isWritten ? `Stroke ${Math.min(desk.due + 1, count)} of ${count}`
       : skipped.length > 0 ? `${count - skipped.length} of ${count} strokes written` : "Written";
     if (isWritten && document.activeElement === find("skip")) find("next").focus();
     input("skip").disabled = isWritten || isWatched;
     find("skip").classList.toggle("offered", misses >= 2);
     find("strength").closest("label")?.toggleAttribute("hidden", !mode.isGuided);
-    find("ink").hidden = !mode.isGuided;
+    find("ink").hidden = !isGuided;
     if (!isWritten) result.hidden = true;
   }
 
@@ -77,13 +78,14 @@ async function main() {
     const recorded = recorder.copy();
     worker.postMessage({ id: ++task, character, tolerance, recorded }, [recorded.buffer]);
   }
+  worker.onerror = () => { find("progress").textContent = "It cannot be judged: the console says why"; };
   worker.onmessage = ({ data }) => {
     if (data.id !== task || !lesson.isWritten) return;
     if (data.error) find("progress").textContent = `It cannot be judged: ${data.error}`;
     else showResult(result, lesson, data);
   };
 
-  /** @param {string} character */
+  /** Whether it could begin. @param {string} character */
   function begin(character) {
     const before = lesson;
     try {
@@ -91,25 +93,35 @@ async function main() {
                           { hint: showHint, changed: showProgress, written: judge });
     } catch (error) {
       find("progress").textContent = `${character} cannot be written: ${/** @type {Error} */ (error).message}`;
-      return;
+      return false;
     }
     before?.close();
     task += 1;  // what the worker still says is of another one
     find("character").textContent = character;
     document.title = `${character} · Calligraphy`;
     if (asked() !== character) history.replaceState(null, "", `#${character}`);
+    return true;
+  }
+
+  /** Begins the first one from an index on that can be. @param {number} index */
+  function beginFrom(index) {
+    const inOrder = characters.map((_, i) => characters[(index + i) % characters.length]);
+    if (!inOrder.some(begin)) throw new Error("none of the characters can be written");
   }
 
   /** @param {Partial<import("./lesson.js").Settings>} changed */
   function change(changed) {
     settings = { ...settings, ...changed };
     if (changed.mode) begin(lesson.character);
-    else lesson.change(settings);
+    else {
+      lesson.change(settings);
+      find("ink").hidden = !lesson.isGuided;
+    }
   }
 
   function beginAsked() {
     const character = asked();
-    begin(characters.includes(character) ? character : characters[0]);
+    beginFrom(Math.max(0, characters.indexOf(character)));
     if (character && character !== lesson.character) {
       find("progress").textContent = `${character} is not among the ${characters.length} characters`;
     }
@@ -132,7 +144,7 @@ async function main() {
   find("again").addEventListener("click", () => begin(lesson.character));
   find("skip").addEventListener("click", () => lesson.skip());
   find("next").addEventListener("click", () => {
-    begin(characters[(characters.indexOf(lesson.character) + 1) % characters.length]);
+    beginFrom(characters.indexOf(lesson.character) + 1);
   });
   for (const character of characters) {
     const button = document.createElement("button");

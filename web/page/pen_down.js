@@ -12,13 +12,14 @@ export class PenDown {
   stray = new InkLine();   // of the guided pen, after it had finished a stroke, of no stroke
   /** @type {[number, number] | undefined} */
   finish;                  // where it finished a stroke; undefined: it did not [m]
-  isPassed = false;        // its stroke was skipped
+  isPassed = false;        // its stroke was skipped, or it was no writing
   isBroken = false;        // it began the stroke, and did not finish it
   hint = constants.HINT_NONE;  // why it was not guided
 
-  /** @param {number} begin [s] */
-  constructor(begin) {
+  /** @param {number} begin [s] @param {number} recorded number of ticks that had been recorded */
+  constructor(begin, recorded) {
     this.begin = begin;
+    this.recorded = recorded;
   }
 
   /** Whether ink here belongs to no stroke, because its own was finished elsewhere. @param {number} x

@@ -6,6 +6,7 @@
  * @property {number} x [m, page]
  * @property {number} y [m, page]
  * @property {boolean} isDown whether it writes
+ * @property {boolean} [isPalm] whether what it did since it was put down was no writing
  * @property {number | undefined} pressure from 0 to 1; undefined: it does not measure it
  */
 
@@ -23,6 +24,7 @@ export class Pointer {
     this.wake = wake;
     this.id = /** @type {number | undefined} */ (undefined);  // of the pointer that is down
     this.type = "";            // its kind
+    this.last = /** @type {PointerSample} */ ({ time: 0, x: 0, y: 0, isDown: false, pressure: undefined });
     this.penTime = -Infinity;  // when a pen was last seen [ms]
     element.addEventListener("pointerdown", (event) => this.#begin(event));
     element.addEventListener("pointermove", (event) => this.#move(event));
@@ -38,15 +40,21 @@ export class Pointer {
     return this.samples.length > 0 && this.samples[0].time <= time ? this.samples.shift() : undefined;
   }
 
+  /** Whether a pointer is down. */
+  get isDown() {
+    return this.id !== undefined;
+  }
+
   /** @param {PointerEvent} event */
   #begin(event) {
-    const { pointerType, timeStamp } = event;
+    const { pointerType, timeStamp, isPrimary } = event, isTouch = pointerType === "touch";
     if (pointerType === "pen") this.penTime = timeStamp;
-    const isPalm = pointerType === "touch" && timeStamp - this.penTime < restOfHand;
-    if (event.button !== 0 || isPalm || (pointerType === "touch" && !event.isPrimary)) return;
-    if (this.id !== undefined) {
-      if (this.type !== "touch" || pointerType !== "pen") return;
-      this.#add([event], false);  // a palm was put down before the pen
+    const isPalm = isTouch && timeStamp - this.penTime < restOfHand;
+    if (event.button !== 0 || isPalm || (isTouch && !isPrimary)) return;
+    if (this.isDown) {
+      const wasPalm = this.type === "touch" && pointerType === "pen";
+      if (!wasPalm && this.type !== pointerType) return;
+      this.#lift(timeStamp, wasPalm);  // otherwise its end was lost
     }
     this.id = event.pointerId;
     this.type = pointerType;
@@ -57,16 +65,23 @@ export class Pointer {
   /** @param {PointerEvent} event */
   #move(event) {
     if (event.pointerType === "pen") this.penTime = event.timeStamp;
-    if (this.id !== undefined ? event.pointerId !== this.id : !event.isPrimary) return;
+    if (this.isDown ? event.pointerId !== this.id : !event.isPrimary) return;
+    if (this.isDown && event.buttons === 0) return this.#lift(event.timeStamp);  // its end was lost
     const coalesced = event.getCoalescedEvents?.() ?? [];
-    this.#add(coalesced.length > 0 ? coalesced : [event], this.id !== undefined);
+    this.#add(coalesced.length > 0 ? coalesced : [event], this.isDown);
+    return undefined;
   }
 
   /** @param {PointerEvent} event */
   #end(event) {
-    if (event.pointerId !== this.id) return;
+    if (event.pointerId === this.id) this.#lift(event.timeStamp);
+  }
+
+  /** The pointer that is down leaves the paper, where it was last. @param {number} time @param {boolean} [isPalm] */
+  #lift(time, isPalm = false) {
     this.id = undefined;
-    this.#add([event], false);
+    this.samples.push({ ...this.last, time, isDown: false, isPalm });
+    this.wake();
   }
 
   /** @param {PointerEvent[]} events @param {boolean} isDown */
@@ -74,7 +89,8 @@ export class Pointer {
     const box = this.paper.element.getBoundingClientRect();
     for (const event of events) {
       const pressure = event.pointerType === "pen" && event.pressure > 0 ? event.pressure : undefined;
-      this.samples.push({ time: event.timeStamp, ...this.paper.place(event, box), isDown, pressure });
+      this.last = { time: event.timeStamp, ...this.paper.place(event, box), isDown, pressure };
+      this.samples.push(this.last);
     }
     this.wake();
   }
