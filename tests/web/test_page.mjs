@@ -204,6 +204,20 @@ testPage("a finger writes some time after a pen, and not beside it", { character
   await isWritten(tab);
 });
 
+testPage("a palm that is put down before the pen is no writing", { character: "一" }, async (tab) => {
+  const paper = await tab.page.locator("#paper").boundingBox();
+  for (const [type, share] of [["touchStart", 0.8], ["touchMove", 0.75], ["touchMove", 0.6]]) {
+    const touchPoints = [{ x: paper.x + share * paper.width, y: paper.y + 0.9 * paper.height }];
+    await tab.devtools.send("Input.dispatchTouchEvent", { type, touchPoints });
+    await tab.pass(100);
+  }
+  await tab.write(parts.strokesOf("一")[0]);
+  await isWritten(tab);
+  const { rows, remarks } = await tab.result();
+  assert.deepEqual(remarks, []);
+  assert.equal(rows["Right at once"], "1 of 1");
+});
+
 for (const [width, height] of [[320, 640], [768, 1024], [1024, 768]]) {
   testPage(`at ${width} by ${height}, paper and hints fit`, { size: { width, height } }, async (tab) => {
     const paper = await tab.page.locator("#paper").boundingBox();

@@ -38,7 +38,6 @@ export class Desk {
    */
   constructor(library, set, character) {
     this.library = library;
-    this.character = character;
     this.handles = /** @type {number[]} */ ([]);
     this.page = this.#kept(layOut(library, set, character));
     this.mapping = library.struct("mapping");

@@ -123,6 +123,11 @@ export class Lesson {
     return this.mode.isGuided && this.settings.strength > 0;
   }
 
+  /** Whether the stroke that is due was missed so often that it is shown. */
+  get isStuck() {
+    return this.misses >= missesUntilShown;
+  }
+
   /** Passes over the stroke that is due. */
   skip() {
     const stroke = this.desk.due;
@@ -171,8 +176,8 @@ export class Lesson {
     paper.drawGrid();
     this.desk.strokes.forEach((stroke, i) => {
       const isDue = i === this.desk.due && this.settings.mode !== "watch";
-      const isShown = this.misses >= missesUntilShown && isDue;
-      if (template === "all" || (template === "next" && isDue) || isShown || this.isWritten) {
+      const isShown = template === "all" || (isDue && (template === "next" || this.isStuck));
+      if (isShown || this.isWritten) {
         paper.fillStroke("sheet", stroke, isDue ? colours.due : colours.template);
       }
     });
@@ -210,10 +215,7 @@ export class Lesson {
     for (let sample = this.pointer.take(this.time); sample; sample = this.pointer.take(this.time)) {
       this.mustLift &&= sample.isDown;
       if (this.settings.mode === "watch" || this.isWritten || this.mustLift) continue;
-      if (sample.isPalm && this.penDown) {
-        this.penDown.isPassed = true;
-        this.recorder.count = this.penDown.recorded;
-      }
+      if (sample.isPalm && this.penDown) this.penDown.isPalm = true;
       const begins = sample.isDown && !this.isDown;
       if (begins) {
         const jump = Math.hypot(sample.x - this.ownAt[0], sample.y - this.ownAt[1]);
@@ -300,7 +302,9 @@ export class Lesson {
     const isDown = this.isDown ? 1 : 0;  // that of the next stroke already
     penDown.own = this.own.splice(0, this.own.length - isDown);
     this.paper.clear("pen");
-    if (penDown.finish) {
+    if (penDown.isPalm && !penDown.finish) {
+      this.recorder.count = penDown.recorded;
+    } else if (penDown.finish) {
       this.display.hint("", 0, 0);
       this.#drawLines("ink", penDown, true);
       if (this.desk.due === this.desk.strokes.length) this.#finish();
@@ -314,7 +318,7 @@ export class Lesson {
   #refuse(penDown) {
     ++this.misses;
     this.missed.add(this.desk.due);
-    const stroke = this.desk.strokes[this.desk.due], shows = this.misses >= missesUntilShown;
+    const stroke = this.desk.strokes[this.desk.due], shows = this.isStuck;
     this.#fade(penDown);
     this.#flash(stroke, () => shows && this.#demonstrate(this.desk.due));
     this.display.hint(penDown.whyNot(stroke, this.tip) ?? this.#words(penDown.hint), this.tip[0], this.tip[1]);

@@ -59,14 +59,14 @@ async function main() {
   }
 
   /** @param {Lesson} lesson */
-  function showProgress({ desk, misses, skipped, isWritten, isGuided, mode, settings }) {
+  function showProgress({ desk, skipped, isStuck, isWritten, isGuided, mode, settings }) {
     const isWatched = settings.mode === "watch", count = desk.strokes.length;
     find("progress").textContent = isWatched ? `${count} strokes`
       : !isWritten ? `Stroke ${Math.min(desk.due + 1, count)} of ${count}`
       : skipped.length > 0 ? `${count - skipped.length} of ${count} strokes written` : "Written";
     if (isWritten && document.activeElement === find("skip")) find("next").focus();
     input("skip").disabled = isWritten || isWatched;
-    find("skip").classList.toggle("offered", misses >= 2);
+    find("skip").classList.toggle("offered", isStuck);
     find("strength").closest("label")?.toggleAttribute("hidden", !mode.isGuided);
     find("ink").hidden = !isGuided;
     if (!isWritten) result.hidden = true;

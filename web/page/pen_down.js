@@ -12,7 +12,8 @@ export class PenDown {
   stray = new InkLine();   // of the guided pen, after it had finished a stroke, of no stroke
   /** @type {[number, number] | undefined} */
   finish;                  // where it finished a stroke; undefined: it did not [m]
-  isPassed = false;        // its stroke was skipped, or it was no writing
+  isPassed = false;        // its stroke was skipped
+  isPalm = false;          // it was no writing
   isBroken = false;        // it began the stroke, and did not finish it
   hint = constants.HINT_NONE;  // why it was not guided
 
