@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the programs that no test runs (benchmarks, judges of the guidance, long fuzz and soak runs), and runs them for
-# an instant, so that they cannot rot; fuzz and soak also under sanitizers.
+# Builds the programs that no test runs (benchmarks, judges of the guidance and of stroke matching, long fuzz and soak
+# runs), and runs them for an instant, so that they cannot rot; fuzz and soak also under sanitizers.
 # usage: programs.sh [BUILD_DIRECTORY]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -10,6 +10,7 @@ cmake -S . -B "$build/programs" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPH
 cmake --build "$build/programs" --target programs
 ctest --test-dir "$build/programs" --output-on-failure --no-tests=error -R "/the benchmark of "
 "$build/programs/tests/guidance/guidance_judge" pairs --cases 2 > /dev/null
+"$build/programs/tests/judge/stroke_judge" --written 4 --cases 2 > /dev/null
 "$build/programs/tests/stability/guidance_sweep" --cases 2 > /dev/null
 "$build/programs/tests/stability/energy_account" --ticks 100 > /dev/null
 "$build/programs/tests/fuzz/nearest_point_fuzz" --queries 20000 --ticks 20000 > /dev/null
