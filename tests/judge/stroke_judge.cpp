@@ -26,14 +26,14 @@ using namespace calligraphy_test;
 
 constexpr const char* usage =
     "usage: stroke_judge [--traces DIR]... [--characters FILE.set]... [--written N] [--half choosing|printed|all]\n"
-    "                    [--row NAME] [--class dots|hooks|parallel] [--cases N] [--tolerances lenient|normal|strict]\n"
-    "                    [--seed S] [--threads T] [--list] [--out FILE]\n"
+    "                    [--row NAME] [--class any|dots|hooks|parallel] [--cases N]\n"
+    "                    [--tolerances lenient|normal|strict] [--seed S] [--threads T] [--list] [--out FILE]\n"
     "    --traces, --characters: of people's pens and of what they wrote, several in turn; by default those that\n"
     "        CALLIGRAPHY_PEN_TRACES and CALLIGRAPHY_CHARACTER_FILE name, separated by ':', or else none and the\n"
     "        built-in characters\n"
     "    --written: characters that the simulated writer writes besides, 400 by default\n"
     "    --half: of the characters: the half on which thresholds may be chosen, or the other; all by default\n"
-    "    --row, --class: that one alone\n"
+    "    --row, --class: that one alone; any: without those of the classes\n"
     "    --cases: of each row, 300 by default; rows in which nothing is random have one of each pen\n"
     "    --list: each case that failed: pen-downs and remarks as they are, and as they are told\n"
     "    --out: writes those cases as pen traces, for calligraphy replay\n"
@@ -156,8 +156,9 @@ class Program {
   void add_cases(std::vector<Case>& cases, std::size_t source, std::size_t row, StrokeClass stroke_class) const {
     const std::vector<RightPen>& pens = sources_[source];
     const Corruption& corruption = corruptions()[row];
-    const std::size_t before = cases.size();
-    const std::size_t most = corruption.is_random() ? before + case_count_ / sources_.size() : before + pens.size();
+    std::size_t count = pens.size();
+    if (corruption.is_random()) count = (case_count_ + source) / sources_.size();  // halves, or all
+    const std::size_t most = cases.size() + count;
     for (int round = 0; cases.size() < most; ++round) {
       const std::size_t at_first = cases.size();
       for (std::size_t i = 0; i < pens.size() && cases.size() < most; ++i) {

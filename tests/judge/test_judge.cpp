@@ -1,10 +1,8 @@
 // The instruments of stroke_judge, which do not know match_strokes(): which pens are right, and what is done to them.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
-#include <calligraphy/base/random.hpp>
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/model/character_list.hpp>
 
