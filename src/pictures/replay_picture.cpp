@@ -40,12 +40,14 @@ constexpr double arrow_length = 2.4;
 
 constexpr std::size_t max_lines = 12;  ///< of remarks
 
+std::vector<Point> evenly_spaced(std::span<const Point> path) { return points_along(path, path_length(path), 32); }
+
 /// Puts numbers beside paths where they cover each other least.
 class Labels {
  public:
   /// Beside a path, near its start if there is room.
   Point place(std::span<const Point> path, double width) {
-    const Outline points = outline(path);
+    const std::vector<Point> points = evenly_spaced(path);
     Point best = points.front();
     double least = std::numeric_limits<double>::infinity();
     for (const std::size_t at : {std::size_t{0}, std::size_t{3}, std::size_t{6}, std::size_t{10}, std::size_t{15}}) {
@@ -70,7 +72,7 @@ class Labels {
     double width;
   };
 
-  static Point tangent(const Outline& points, std::size_t at) {
+  static Point tangent(const std::vector<Point>& points, std::size_t at) {
     const std::size_t next = std::min(at + 2, points.size() - 1);
     const Point along = points[next] - points[at];
     return along.norm() > 0.0 ? Point(along.normalized()) : Point(1.0, 0.0);
@@ -105,7 +107,7 @@ void draw_path(pugi::xml_node parent, std::span<const Point> points, const char*
 
 /// A head in the middle of the path that shows where it goes.
 void draw_arrow(pugi::xml_node parent, std::span<const Point> points, const char* colour) {
-  const Outline even = outline(points);
+  const std::vector<Point> even = evenly_spaced(points);
   const std::size_t middle = even.size() * 3 / 5;
   const Point along = even[middle + 1] - even[middle - 1];
   if (along.norm() == 0.0) return;

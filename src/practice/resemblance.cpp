@@ -1,6 +1,7 @@
 #include "resemblance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <calligraphy/practice/pen_path.hpp>
@@ -10,20 +11,14 @@ namespace {
 
 constexpr int steps_per_element = 24;
 
-Point mean_of(const Outline& outline) {
-  Point sum = Point::Zero();
-  for (const Point& point : outline) sum += point;
-  return sum / static_cast<double>(outline.size());
-}
+constexpr Eigen::Index samples_per_piece = 8;
 
-}  // namespace
-
-void points_along(std::span<const Point> path, double length, std::span<Point> points) {
-  const double step = length / static_cast<double>(points.size() - 1);
+/// Sets points on a path that are `step` apart along it, the first one `begin` from its start.
+void walk(std::span<const Point> path, double begin, double step, std::span<Point> points) {
   double before = 0.0;  // length up to path[at]
   std::size_t at = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const double wanted = step * static_cast<double>(k);
+    const double wanted = begin + step * static_cast<double>(k);
     double next = at + 1 < path.size() ? (path[at + 1] - path[at]).norm() : 0.0;
     while (at + 2 < path.size() && before + next < wanted) {
       before += next;
@@ -33,6 +28,12 @@ void points_along(std::span<const Point> path, double length, std::span<Point> p
     const double share = next > 0.0 ? std::clamp((wanted - before) / next, 0.0, 1.0) : 0.0;
     points[k] = at + 1 < path.size() ? Point(path[at] + share * (path[at + 1] - path[at])) : path[at];
   }
+}
+
+}  // namespace
+
+void points_along(std::span<const Point> path, double length, std::span<Point> points) {
+  walk(path, 0.0, length / static_cast<double>(points.size() - 1), points);
 }
 
 std::vector<Point> points_along(std::span<const Point> path, double length, std::size_t count) {
@@ -51,17 +52,29 @@ std::vector<Point> without_jitter(std::span<const Point> path, double spacing) {
 }
 
 Outline outline(std::span<const Point> path, double length) {
-  Outline result;
-  points_along(path, length, result);
+  std::array<Point, static_cast<std::size_t>(Outline::RowsAtCompileTime * samples_per_piece)> samples;
+  const double step = length / static_cast<double>(samples.size());
+  walk(path, 0.5 * step, step, samples);
+  Outline result = Outline::Zero();
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    result.row(static_cast<Eigen::Index>(k) / samples_per_piece) += samples[k].transpose() / samples_per_piece;
+  }
   return result;
 }
 
 Outline outline(std::span<const Point> path) { return outline(path, path_length(path)); }
 
-Outline reversed(const Outline& outline) {
-  Outline result = outline;
-  std::reverse(result.begin(), result.end());
-  return result;
+double length_of(const Outline& outline) {
+  constexpr Eigen::Index steps = Outline::RowsAtCompileTime - 1;
+  const double between = (outline.bottomRows<steps>() - outline.topRows<steps>()).rowwise().norm().sum();
+  return between * (steps + 1) / steps;
+}
+
+Outline reversed(const Outline& outline) { return outline.colwise().reverse(); }
+
+Outline centred(const Outline& outline) {
+  const Outline moved = outline.rowwise() - outline.colwise().mean();
+  return moved / std::max(moved.norm(), 1e-9);
 }
 
 std::vector<Point> middle_line(const Stroke& stroke, const Placement& placement) {
@@ -75,21 +88,10 @@ std::vector<Point> middle_line(const Stroke& stroke, const Placement& placement)
 }
 
 double mean_distance(const Outline& one, const Outline& other) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < one.size(); ++k) sum += (one[k] - other[k]).norm();
-  return sum / static_cast<double>(one.size());
+  const Eigen::Array<double, Outline::RowsAtCompileTime, 2> apart = one - other;
+  return (apart.col(0).square() + apart.col(1).square()).sqrt().mean();
 }
 
-double accord(const Outline& one, const Outline& other) {
-  const Point from = mean_of(one), to = mean_of(other);
-  double product = 0.0, square = 0.0, other_square = 0.0;
-  for (std::size_t k = 0; k < one.size(); ++k) {
-    product += (one[k] - from).dot(other[k] - to);
-    square += (one[k] - from).squaredNorm();
-    other_square += (other[k] - to).squaredNorm();
-  }
-  const double size = std::sqrt(square * other_square);
-  return size > 0.0 ? product / size : 0.0;
-}
+double accord(const Outline& one, const Outline& other) { return one.cwiseProduct(other).sum(); }
 
 }  // namespace calligraphy

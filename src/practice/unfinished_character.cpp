@@ -21,7 +21,7 @@ constexpr double other_cost = 0.05;
 /// A path with the rest of the stroke that it has begun, moved to where the path ends.
 PenPath finished(PenPath path, const PenPath& stroke) {
   const double length = path_length(path);
-  const Point shift = path.back() - outline(stroke, std::min(length, path_length(stroke))).back();
+  const Point shift = path.back() - points_along(stroke, std::min(length, path_length(stroke)), 2).back();
   double reached = 0.0;
   for (std::size_t i = 1; i < stroke.size(); ++i) {
     reached += (stroke[i] - stroke[i - 1]).norm();

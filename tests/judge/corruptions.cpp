@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string_view>
 
@@ -18,9 +19,9 @@ using namespace calligraphy;
 
 namespace {
 
-constexpr double splittable = 0.2, turnable = 0.1;  // lengths of the shortest strokes [em]
-constexpr double again = 0.03;                      // displacement of a stroke that is written again [em]
-constexpr double parallel_distance = 0.25;          // between centres [em]
+constexpr double splittable = 0.2, turnable = 0.2, shortest_turned = 0.1;  // lengths of the shortest strokes [em]
+constexpr double again = 0.03;              // displacement of a stroke that is written again [em]
+constexpr double parallel_distance = 0.25;  // between centres [em]
 constexpr std::size_t longest_block = 3;
 
 constexpr std::array class_names = {"any", "dots", "hooks", "parallel"};
@@ -95,7 +96,9 @@ class Corrupter {
       case Fault::extra:
         return extra();
       case Fault::turned:
-        return turn();
+        return turn(turnable, std::numeric_limits<double>::infinity());
+      case Fault::turned_short:
+        return turn(shortest_turned, turnable);
       case Fault::block:
         return move_block();
       default:
@@ -113,8 +116,11 @@ class Corrupter {
     if (found.empty()) return std::nullopt;
     return found[random_.index(found.size())];
   }
-  std::optional<std::size_t> choose_stroke(double length = 0.0) {
-    return choose(paths_.size(), [&](std::size_t i) { return member_[i] && path_length(paths_[i]) >= length; });
+  std::optional<std::size_t> choose_stroke(double least = 0.0, double below = std::numeric_limits<double>::infinity()) {
+    return choose(paths_.size(), [&](std::size_t i) {
+      const double length = path_length(paths_[i]);
+      return member_[i] && least <= length && length < below;
+    });
   }
   /// The first of two neighbours of which one is of the class.
   std::optional<std::size_t> choose_neighbours() {
@@ -215,8 +221,8 @@ class Corrupter {
     return Corrupted{paths_, {truth_, first_is_extra}};
   }
 
-  bool turn() {
-    const auto stroke = choose_stroke(turnable);
+  bool turn(double least, double below) {
+    const auto stroke = choose_stroke(least, below);
     if (!stroke) return false;
     const double sign = random_.index(2) == 0 ? 1.0 : -1.0;
     const Point centre = box_of(paths_[*stroke]).center();
@@ -325,6 +331,7 @@ const std::vector<Corruption>& corruptions() {
       {"reverse,jitter-1", Fault::reverse, {.jitter = 0.01}},
       {"reverse,displaced-5", Fault::reverse, {.displaced = 0.05}},
       {"drop,displaced-5", Fault::drop, {.displaced = 0.05}},
+      {"turned-short", Fault::turned_short},
   };
   return all;
 }

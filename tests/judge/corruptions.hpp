@@ -36,16 +36,17 @@ std::vector<bool> members(const calligraphy::Character& character, StrokeClass s
 /// What is done to one stroke or a few, or to none.
 enum class Fault {
   none,
-  swap,      ///< two strokes change their places in the order of writing
-  adjacent,  ///< two neighbours do
-  reverse,   ///< a pen-down whose chord is at least half of its length, and which is no tap, is drawn from its end
-  drop,      ///< one is not written
-  split,     ///< one of at least 0.2 em is lifted at 35 to 65 % of its length
-  join,      ///< the pen is not lifted between two neighbours
-  extra,     ///< a straight line of 0.2 to 0.5 em, anywhere in the square, in any direction, anywhere in the order
-  twice,     ///< one is written again at once, displaced by 3 % of the em; either may be told as extra
-  turned,    ///< one of at least 0.1 em is turned by a right angle about its centre
-  block      ///< 2 or 3 strokes in a row are written earlier or later
+  swap,         ///< two strokes change their places in the order of writing
+  adjacent,     ///< two neighbours do
+  reverse,      ///< a pen-down whose chord is at least half of its length, and which is no tap, is drawn from its end
+  drop,         ///< one is not written
+  split,        ///< one of at least 0.2 em is lifted at 35 to 65 % of its length
+  join,         ///< the pen is not lifted between two neighbours
+  extra,        ///< a straight line of 0.2 to 0.5 em, anywhere in the square, in any direction, anywhere in the order
+  twice,        ///< one is written again at once, displaced by 3 % of the em; either may be told as extra
+  turned,       ///< one of at least 0.2 em is turned by a right angle about its centre
+  block,        ///< 2 or 3 strokes in a row are written earlier or later
+  turned_short  ///< one of 0.1 to 0.2 em is turned so: people's own directions differ by as much
 };
 
 /// What is then done to all pen-downs: about the centre of the square, or at random.

@@ -17,6 +17,8 @@
 #include "base/parallel.hpp"
 #include "corruptions.hpp"
 #include "guidance/statistics.hpp"
+#include "practice/resemblance.hpp"
+#include "practice/stroke_reading.hpp"
 #include "stability/arguments.hpp"
 
 namespace {
@@ -73,9 +75,10 @@ struct Case {
 };
 
 struct Outcome {
-  bool told = false;    ///< exactly
-  bool silent = false;  ///< nothing is remarked
-  std::string text;     ///< what is told
+  bool told = false;         ///< exactly
+  bool silent = false;       ///< nothing is remarked
+  double comparisons = 0.0;  ///< of a pen-down with a stroke, per pen-down and stroke
+  std::string text;          ///< what is told
 };
 
 /// A drawing without times, as a pen of 0.5 em/s with 0.3 s in the air before each stroke draws it.
@@ -115,7 +118,8 @@ class Program {
     std::vector<StrokeClass> classes = {StrokeClass::any, StrokeClass::dots, StrokeClass::hooks, StrokeClass::parallel};
     if (!class_.empty()) classes = {class_named(class_)};
     collect_pens();
-    std::printf("%-19s %-9s %6s %10s %8s\n", "row", "strokes", "n", "characters", "%");
+    std::printf("comparisons: of a pen-down with a stroke, per pen-down and stroke; median and 95 %%\n");
+    std::printf("%-19s %-9s %6s %10s %13s %8s\n", "row", "strokes", "n", "characters", "comparisons", "%");
     for (const StrokeClass stroke_class : classes) {
       for (std::size_t row = 0; row < corruptions().size(); ++row) {
         const Corruption& corruption = corruptions()[row];
@@ -176,7 +180,15 @@ class Program {
     const std::vector<Truth>& truths = each.corrupted.truths;
     const bool told =
         std::any_of(truths.begin(), truths.end(), [&](const Truth& truth) { return tells(match, truth); });
-    return {told, match.remarks.empty(), describe(match)};
+    return {told, match.remarks.empty(), comparisons(each), describe(match)};
+  }
+
+  double comparisons(const Case& each) const {
+    std::vector<PenPath> paths;
+    for (const PenPath& path : each.corrupted.paths) paths.push_back(without_jitter(path, pen_spacing));
+    const StrokeOutlines outlines(each.pen->character);
+    const StrokeReading reading = read_strokes(each.pen->character, outlines, paths, tolerances_);
+    return static_cast<double>(reading.comparisons) / static_cast<double>(paths.size() * outlines.count());
   }
 
   void run_row(std::size_t row, StrokeClass stroke_class) {
@@ -187,18 +199,21 @@ class Program {
     parallel_for(
         cases.size(), threads_, [](double) {}, [&](std::size_t i) { outcomes[i] = judge(cases[i]); });
     ClusteredMean share;
+    std::vector<double> comparisons;
     std::set<char32_t> characters;
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const char32_t code = cases[i].pen->character.code;
       characters.insert(code);
+      comparisons.push_back(outcomes[i].comparisons);
       const bool counted = corruption.is_clean() ? !outcomes[i].silent : outcomes[i].told;
       share.add(code, counted ? 100.0 : 0.0);
       if (counted != corruption.is_clean()) continue;
       if (list_) print_failure(corruption, cases[i], outcomes[i]);
       if (!out_.empty()) failed_.push_back(trace_of(cases[i], corruption.name));
     }
-    std::printf("%-19s %-9s %6zu %10zu %8.1f +- %.1f %s\n", corruption.name.c_str(), to_string(stroke_class),
-                cases.size(), characters.size(), share.mean(), share.half_width(),
+    std::printf("%-19s %-9s %6zu %10zu %6.1f %6.1f %8.1f +- %.1f %s\n", corruption.name.c_str(),
+                to_string(stroke_class), cases.size(), characters.size(), quantile(comparisons, 0.5),
+                quantile(comparisons, 0.95), share.mean(), share.half_width(),
                 corruption.is_clean() ? "with any remark" : "told exactly");
   }
 

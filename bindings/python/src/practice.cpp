@@ -90,7 +90,7 @@ Arrays pen_downs(const PenTrace& trace) {
 }  // namespace
 
 void add_practice(py::module_& module) {
-  add_types<PageLayout, PracticePage, DrawnStroke, StrokeRemark, BoxMap, MeanInterval, InkDetail, StrokeStyle>(module);
+  add_types<PageLayout, PracticePage, DrawnStroke, StrokeRemark, AffineMap, MeanInterval, InkDetail, StrokeStyle>(module);
   add_struct<WriterSkill>(module)
       .def_static("novice", &WriterSkill::novice)
       .def_static("skilled", &WriterSkill::skilled);

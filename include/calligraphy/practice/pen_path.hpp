@@ -36,6 +36,15 @@ struct BoxMap {
   Point operator()(const Point& point) const noexcept { return scale.cwiseProduct(point) + offset; }
 };
 
+/// Turns, slants, scales and translates the em square.
+struct AffineMap {
+  Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();  ///< [1]
+  Point offset = Point::Zero();                          ///< added afterwards [em]
+
+  /// Maps a point [em].
+  Point operator()(const Point& point) const noexcept { return linear * point + offset; }
+};
+
 /// Maps the bounding box of the writing onto that of the character, each axis separately: people fill a square
 /// differently. If a side of either box is below 15 % of the em, as the height of a heng, its axis is scaled like the
 /// other one. The two scales differ by a factor of at most 1.5. Taps do not count, unless there is nothing else.

@@ -59,19 +59,20 @@ struct StrokeRemark {
 struct MatchResult {
   std::vector<DrawnStroke> drawn;     ///< one per pen-down, in the order of writing
   std::vector<StrokeRemark> remarks;  ///< by pen-down, then missing strokes
-  BoxMap fit;                         ///< maps the pen-downs onto the character
+  AffineMap fit;                      ///< maps the pen-downs onto the character
 
   /// Number of remarks of a kind.
   int count(StrokeRemarkKind kind) const noexcept;
 };
 
-/// Matches pen-downs with strokes at the minimum total cost. The pen-downs are first aligned with the character as a
-/// whole, by translation and scaling: an error of position or size is not a mistake. The cost of a pair is then the
-/// mean distance of points at equal arc length, forwards or backwards, plus a penalty for the rotation between them. A
-/// pen-down that resembles no stroke is extra; a stroke that no pen-down resembles is missing; a pen-down that
-/// resembles several consecutive strokes has joined them. An order other than the standard one is accepted only where
-/// it fits better by 5 % of the em or by the factor `tolerances.distinction`; a stroke runs forwards within the angle
-/// `tolerances.direction`. For the steps and the bounds see docs/practice.md. O(refits paths strokes).
+/// Matches pen-downs with strokes at the minimum total cost. The pen-downs are first laid on the character as a whole:
+/// an error of position or size, a slant or a turn of up to some 30 degrees is not a mistake. The cost of a pair is then
+/// the mean distance of points that are as far along, forwards or backwards, plus a penalty for the angle between them. A
+/// pen-down that resembles no stroke is extra; a stroke that no pen-down resembles is missing; a pen-down that resembles
+/// several consecutive strokes has joined them. An order other than the standard one is accepted only where it fits
+/// better by `tolerances.distinction` times the mean cost of this hand, or by that factor; a stroke runs forwards within
+/// the angle `tolerances.direction`. For the steps and the bounds, and how often they are right, see docs/practice.md.
+/// O(readings paths strokes).
 ///
 /// `paths` are in the square of the character; writing from elsewhere is mapped there by fit_box.
 /// @throws ValueError when the character or a tolerance is invalid, there are more than 1000 paths, or one is empty or

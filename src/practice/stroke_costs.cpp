@@ -1,0 +1,101 @@
+#include "stroke_costs.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace calligraphy {
+namespace {
+
+constexpr double turned_cost = 0.08;  // of a quarter turn, where the direction tells most; twice as much of a half [em]
+constexpr double backwards_cost = 0.02;      // by which a stroke must fit better backwards [em]
+constexpr double max_dot = 0.3;              // a tap may be a stroke up to this length [em]
+constexpr double alike = 0.15;               // cost up to which joined or broken strokes are told [em]
+constexpr double joined_length = 0.68;       // of what a pen draws that joins strokes, that a pen-down is long at least
+constexpr double joined_share = 0.75;        // of the cost as one of the strokes alone, at most
+constexpr double joined_share_of_few = 0.9;  // where there are fewer pen-downs than strokes
+constexpr double broken_gap = 0.25;          // between the parts of a broken stroke, of its length
+constexpr double broken_doubt = 0.04;        // by which one part alone may fit better [em]
+constexpr double impossible = 9.0;           // [em]
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr PairCost impossible_pair = {never, 0.0, 0.0, false};
+
+}  // namespace
+
+double trust_in_direction(double length) { return std::min(1.0, 0.25 + length / 0.3); }
+
+std::vector<DrawnLine> drawn_lines(std::span<const PenPath> paths) {
+  std::vector<DrawnLine> lines;
+  for (std::size_t path = 0; path < paths.size(); ++path) {
+    PenPath both = paths[path];
+    if (path + 1 < paths.size()) both.insert(both.end(), paths[path + 1].begin(), paths[path + 1].end());
+    lines.push_back({outline(paths[path]), paths[path].front(), paths[path].back(), outline(both)});
+  }
+  return lines;
+}
+
+StrokeCosts::StrokeCosts(const StrokeOutlines& strokes, std::span<const DrawnLine> drawn, const AffineMap& fit)
+    : strokes_(&strokes), fit_(fit) {
+  for (const DrawnLine& path : drawn) {
+    const Outline& line = placed_.emplace_back(place(path.line));
+    shapes_.push_back(centred(line));
+    lengths_.push_back(length_of(line));
+  }
+  joined_.assign(drawn.size() * strokes.count() * max_joined, impossible_pair);
+  broken_.assign(drawn.size() * strokes.count(), impossible_pair);
+  for (std::size_t path = 0; path < drawn.size(); ++path) compare_singles(path);
+  for (std::size_t path = 0; path < drawn.size(); ++path) {
+    compare_joined(path);
+    if (path + 1 < drawn.size()) compare_broken(path, drawn[path], drawn[path + 1]);
+  }
+}
+
+PairCost StrokeCosts::compare(const Outline& line, const Outline& shape, const StrokeRun& run) {
+  ++comparisons_;
+  const double turned = turned_cost * trust_in_direction(run.length);
+  const double with = accord(shape, run.shape), against = accord(shape, reversed(run.shape));
+  const double forwards = mean_distance(line, run.line) + turned * (1.0 - with);
+  const double backwards = mean_distance(line, reversed(run.line)) + turned * (1.0 - against) + backwards_cost;
+  return {std::min(forwards, backwards), with, against, backwards < forwards};
+}
+
+void StrokeCosts::compare_singles(std::size_t path) {
+  for (std::size_t stroke = 0; stroke < strokes(); ++stroke) {
+    const StrokeRun& run = strokes_->run(stroke, 1);
+    if (!is_tap(path)) {
+      singles_.push_back(compare(placed_[path], shapes_[path], run));
+      continue;
+    }
+    const double cost = run.length > max_dot ? impossible : mean_distance(placed_[path], run.line);
+    singles_.push_back({cost, 1.0, 1.0, false});
+    ++comparisons_;
+  }
+}
+
+void StrokeCosts::compare_joined(std::size_t path) {
+  const double share = placed_.size() < strokes() ? joined_share_of_few : joined_share;
+  for (std::size_t first = 0; first < strokes(); ++first) {
+    double alone = single(path, first).cost;
+    for (std::size_t count = 2; count <= std::min(max_joined, strokes() - first); ++count) {
+      const StrokeRun& run = strokes_->run(first, count);
+      alone = std::min(alone, single(path, first + count - 1).cost);
+      if (lengths_[path] < joined_length * run.way) continue;
+      const PairCost pair = compare(placed_[path], shapes_[path], run);
+      if (pair.cost >= std::min(alike, share * alone)) continue;
+      joined_[(path * strokes() + first) * max_joined + count - 1] = pair;
+    }
+  }
+}
+
+void StrokeCosts::compare_broken(std::size_t path, const DrawnLine& drawn, const DrawnLine& next) {
+  if (is_tap(path) || is_tap(path + 1)) return;
+  const double gap = (fit_.linear * (next.begin - drawn.end)).norm();
+  const Outline both = place(drawn.with_next), shape = centred(both);
+  for (std::size_t stroke = 0; stroke < strokes(); ++stroke) {
+    if (gap > broken_gap * strokes_->length(stroke)) continue;
+    const PairCost pair = compare(both, shape, strokes_->run(stroke, 1));
+    const double alone = std::min(single(path, stroke).cost, single(path + 1, stroke).cost);
+    if (pair.cost < std::min(alike, alone + broken_doubt)) broken_[path * strokes() + stroke] = pair;
+  }
+}
+
+}  // namespace calligraphy

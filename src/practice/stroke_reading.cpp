@@ -1,0 +1,375 @@
+#include "stroke_reading.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include "assignment.hpp"
+#include "longest_rise.hpp"
+#include "writing_fit.hpp"
+
+namespace calligraphy {
+namespace {
+
+constexpr double joined_cost = 0.02;    // for each lift of the pen too few [em]
+constexpr double broken_cost = 0.03;    // for one too many [em]
+constexpr double unlikely = 0.1;        // besides, where the number of pen-downs speaks against it [em]
+constexpr double min_doubt = 0.03;      // that another order or another place must save at least [em]
+constexpr double max_substitute = 0.5;  // cost of a pair that is told rather than both left over [em]
+constexpr double opposite_way = 55.0 * std::numbers::pi / 180.0;  // within which a stroke runs backwards [rad]
+constexpr double short_angle = std::numbers::pi / 3.0;  // besides, of strokes whose direction tells nothing [rad]
+constexpr int max_refits = 5;
+constexpr double better = 5e-4;              // by which a refit must be [em]
+constexpr double unlike = 0.06;              // mean cost above which the fit is doubted [em]
+constexpr std::array turns = {-16.0, 16.0};  // of the writing, with which reading begins [degrees]
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+using Costs = std::shared_ptr<const StrokeCosts>;
+
+class Reader {
+ public:
+  Reader(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths,
+         const StrokeTolerances& tolerances)
+      : character_(character), strokes_(strokes), paths_(paths), drawn_(drawn_lines(paths)), tolerances_(tolerances) {}
+
+  /// From the box of the pen-downs, or from where they are if that fits clearly better at once; then, where there is
+  /// something to remark or nothing fits well, from the box turned either way: a slanted hand. Of a single line nobody
+  /// can tell a slanted hand from a slanted stroke.
+  StrokeReading read() {
+    const Start boxed = begin(box_of_turned(0.0)), here = begin(AffineMap());
+    Pair best = refine(here.cost() < boxed.cost() - min_doubt ? here : boxed);
+    StrokeReading chosen = choose(best);
+    if (paths_.size() > 1 && (!is_unremarkable(chosen) || chosen.mean_cost() >= unlike)) {
+      for (const double degrees : turns) {
+        const Pair pair = refine(begin(box_of_turned(degrees)));
+        if (pair.in_order.cost < best.in_order.cost) best.in_order = pair.in_order;
+        if (pair.free.cost < best.free.cost) best.free = pair.free;
+      }
+      chosen = choose(best);
+    }
+    pair_left_overs(chosen);
+    chosen.comparisons = comparisons_;
+    return chosen;
+  }
+
+ private:
+  using Rule = StrokeReading (Reader::*)(const Costs&) const;
+
+  struct Pair {
+    StrokeReading in_order, free;
+  };
+  struct Start : Pair {
+    AffineMap fit;
+    double cost() const { return std::min(in_order.cost, free.cost); }
+  };
+
+  AffineMap box_of_turned(double degrees) const {
+    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(degrees * std::numbers::pi / 180.0).toRotationMatrix();
+    std::vector<PenPath> turned(paths_.begin(), paths_.end());
+    for (PenPath& path : turned) {
+      for (Point& point : path) point = turn * point;
+    }
+    const BoxMap box = fit_box(turned, character_);
+    return {box.scale.asDiagonal() * turn, box.offset};
+  }
+
+  /// A pen-down in the place of a stroke that nothing else wrote is that stroke, misplaced or of another shape.
+  static void pair_left_overs(StrokeReading& reading) {
+    for (std::size_t i = 0; i + 1 < reading.steps.size(); ++i) {
+      ReadingStep &one = reading.steps[i], &other = reading.steps[i + 1];
+      if (one.is_written() || other.is_written() || one.paths == other.paths) continue;
+      const std::size_t path = one.paths > 0 ? one.path : other.path,
+                        stroke = one.paths > 0 ? other.stroke : one.stroke;
+      const double cost = reading.costs->single(path, stroke).cost;
+      if (reading.costs->is_tap(path) || cost > max_substitute) continue;
+      one = {path, 1, stroke, 1, cost};
+      reading.steps.erase(reading.steps.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    }
+  }
+
+  Costs place(const AffineMap& fit) {
+    auto costs = std::make_shared<const StrokeCosts>(strokes_, drawn_, fit);
+    comparisons_ += costs->comparisons();
+    return costs;
+  }
+
+  Start begin(const AffineMap& fit) {
+    const Costs costs = place(fit);
+    return {{read_in_order(costs), read_freely(costs)}, fit};
+  }
+
+  /// Fits the writing to the reading and reads again, as long as the cost falls.
+  StrokeReading refine(Rule rule, StrokeReading reading, const AffineMap& start) {
+    for (int i = 0; i < max_refits; ++i) {
+      const std::optional<AffineMap> fit = fit_writing(reading, strokes_, drawn_, start);
+      if (!fit) break;
+      StrokeReading next = (this->*rule)(place(*fit));
+      if (next.cost >= reading.cost - better) break;
+      reading = std::move(next);
+    }
+    return reading;
+  }
+
+  Pair refine(const Start& start) {
+    const StrokeReading in_order = refine(&Reader::read_in_order, start.in_order, start.fit);
+    StrokeReading free = start.free;
+    if (is_same(start.in_order, free)) {  // another order may still be seen at the end
+      free = read_freely(in_order.costs);
+      if (is_same(in_order, free)) return {in_order, in_order};
+    }
+    return {in_order, refine(&Reader::read_freely, std::move(free), start.fit)};
+  }
+
+  static bool has(const StrokeReading& reading, const ReadingStep& wanted) {
+    return std::any_of(reading.steps.begin(), reading.steps.end(),
+                       [&](const ReadingStep& step) { return step.takes_the_same(wanted); });
+  }
+
+  static bool is_same(const StrokeReading& one, const StrokeReading& other) {
+    return one.steps.size() == other.steps.size() &&
+           std::all_of(one.steps.begin(), one.steps.end(), [&](const ReadingStep& step) { return has(other, step); });
+  }
+
+  static double cost_of_others(const StrokeReading& reading, const StrokeReading& than) {
+    double sum = 0.0;
+    for (const ReadingStep& step : reading.steps) sum += has(than, step) ? 0.0 : step.cost;
+    return sum;
+  }
+
+  /// Another order is believed only where it fits clearly better, counted where the two differ, or leaves no more to
+  /// remark.
+  StrokeReading choose(const Pair& pair) const {
+    const auto& [in_order, free] = pair;
+    if (free.cost >= in_order.cost) return in_order;
+    const double doubt = faults(free) > faults(in_order) ? free.mean_cost() : 0.0;
+    return is_clearly_more(cost_of_others(in_order, free), cost_of_others(free, in_order), doubt) ? free : in_order;
+  }
+
+  /// Pen-downs and strokes that are left over, joined, broken or out of turn.
+  static std::size_t faults(const StrokeReading& reading) {
+    std::size_t count = 0;
+    std::vector<std::size_t> paths;  // by stroke
+    for (const ReadingStep& step : reading.steps) {
+      const bool is_bounce = step.strokes == 0 && reading.costs->is_tap(step.path);
+      if (!is_bounce && (step.paths != 1 || step.strokes != 1)) ++count;
+      if (step.is_written()) paths.push_back(step.path);
+    }
+    return count + paths.size() - longest_rise(paths).size();
+  }
+
+  /// A careless hand needs more evidence for another order than a neat one; small strokes are told apart by the factor.
+  bool is_clearly_more(double cost, double other, double mean_cost) const {
+    if (std::isinf(tolerances_.distinction)) return false;
+    return cost - other >= std::max(min_doubt, tolerances_.distinction * mean_cost) ||
+           (cost > other && cost >= tolerances_.distinction * other);
+  }
+
+  bool is_unremarkable(const StrokeReading& reading) const {
+    std::size_t next = 0;
+    for (const ReadingStep& step : reading.steps) {
+      if (step.strokes == 0 && reading.costs->is_tap(step.path)) continue;
+      if (step.paths != 1 || step.strokes != 1 || step.path < next) return false;
+      next = step.path;
+      const WritingDirection direction = direction_of(step, reading, strokes_, tolerances_);
+      if (direction == WritingDirection::backwards || direction == WritingDirection::neither) return false;
+    }
+    return true;
+  }
+
+  StrokeReading read_in_order(const Costs& costs) const {
+    std::vector<std::size_t> order(costs->paths());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    return align(costs, order);
+  }
+
+  /// The pen-downs in the order of the strokes that fit them best in all (assignment), read in that order.
+  StrokeReading read_freely(const Costs& costs) const {
+    std::vector<std::vector<double>> pairs(costs->strokes());
+    for (std::size_t stroke = 0; stroke < pairs.size(); ++stroke) {
+      for (std::size_t path = 0; path < costs->paths(); ++path) {
+        pairs[stroke].push_back(costs->single(path, stroke).cost);
+      }
+    }
+    std::vector<std::optional<std::size_t>> strokes(costs->paths());
+    const auto owners = assign(pairs, costs->paths(), left_over_cost);
+    for (std::size_t stroke = 0; stroke < owners.size(); ++stroke) {
+      if (owners[stroke]) strokes[*owners[stroke]] = stroke;
+    }
+    prefer_order(*costs, strokes);
+    std::vector<std::size_t> keys;
+    for (std::size_t path = 0; path < strokes.size(); ++path) {
+      keys.push_back(strokes[path].value_or(nearest_stroke(*costs, path)));
+    }
+    std::vector<std::size_t> order(keys.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t one, std::size_t other) { return keys[one] < keys[other]; });
+    return align(costs, order);
+  }
+
+  static std::size_t nearest_stroke(const StrokeCosts& costs, std::size_t path) {
+    std::size_t nearest = 0;
+    for (std::size_t stroke = 1; stroke < costs.strokes(); ++stroke) {
+      if (costs.single(path, stroke).cost < costs.single(path, nearest).cost) nearest = stroke;
+    }
+    return nearest;
+  }
+
+  /// Strokes that are much alike are taken in the order in which they should come: pen-downs exchange their strokes
+  /// where more of them are then in turn, and where that does not cost clearly more.
+  void prefer_order(const StrokeCosts& costs, std::vector<std::optional<std::size_t>>& strokes) const {
+    std::vector<std::size_t> paths;
+    std::vector<std::size_t> written;
+    double sum = 0.0;
+    for (std::size_t path = 0; path < strokes.size(); ++path) {
+      if (!strokes[path]) continue;
+      paths.push_back(path);
+      written.push_back(*strokes[path]);
+      sum += costs.single(path, *strokes[path]).cost;
+    }
+    const std::size_t count = paths.size();
+    if (count == 0) return;
+    const double mean_cost = sum / static_cast<double>(count);
+    std::size_t in_turn = longest_rise(written).size();
+    const auto improve = [&](const std::vector<std::size_t>& other) {
+      const std::size_t then = longest_rise(other).size();
+      if (then <= in_turn) return false;
+      double now_cost = 0.0, other_cost = 0.0;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (other[i] == written[i]) continue;
+        now_cost += costs.single(paths[i], written[i]).cost;
+        other_cost += costs.single(paths[i], other[i]).cost;
+      }
+      if (is_clearly_more(other_cost, now_cost, mean_cost * static_cast<double>(then - in_turn))) return false;
+      written = other;
+      in_turn = then;
+      return true;
+    };
+    for (bool found = true; found && in_turn < count;) {
+      found = false;
+      for (std::size_t later = 1; later < count; ++later) {
+        for (std::size_t earlier = later; earlier-- > 0;) {
+          if (written[earlier] < written[later]) continue;
+          std::vector<std::size_t> other = written;
+          std::swap(other[earlier], other[later]);
+          if (improve(other)) {
+            found = true;
+            continue;
+          }
+          other = sorted_between(written, earlier, later);
+          if (improve(other)) found = true;
+        }
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) strokes[paths[i]] = written[i];
+  }
+
+  /// The strokes between two pen-downs that are also between theirs, sorted.
+  static std::vector<std::size_t> sorted_between(std::vector<std::size_t> strokes, std::size_t earlier,
+                                                 std::size_t later) {
+    std::vector<std::size_t> places, between;
+    for (std::size_t i = earlier; i <= later; ++i) {
+      if (strokes[i] > strokes[earlier] || strokes[i] < strokes[later]) continue;
+      places.push_back(i);
+      between.push_back(strokes[i]);
+    }
+    std::sort(between.begin(), between.end());
+    for (std::size_t i = 0; i < places.size(); ++i) strokes[places[i]] = between[i];
+    return strokes;
+  }
+
+  /// The cheapest way to take the pen-downs, in this order, for the strokes in theirs: the edits that turn one word
+  /// into another (Needleman and Wunsch 1970), with joined and broken strokes as edits.
+  StrokeReading align(const Costs& costs, const std::vector<std::size_t>& order) const {
+    struct Best {
+      double cost = infinite;
+      ReadingStep step;
+    };
+    const std::size_t paths = order.size(), strokes = costs->strokes();
+    const double join_price = joined_cost + (paths >= strokes ? unlikely : 0.0);
+    const double break_price = broken_cost + (paths <= strokes ? unlikely : 0.0);
+    std::vector<std::vector<Best>> best(paths + 1, std::vector<Best>(strokes + 1));
+    best[0][0].cost = 0.0;
+    for (std::size_t i = 0; i <= paths; ++i) {
+      const std::size_t path = i < paths ? order[i] : paths;
+      for (std::size_t stroke = 0; stroke <= strokes; ++stroke) {
+        const double before = best[i][stroke].cost;
+        const auto reach = [&](std::size_t more_paths, std::size_t more_strokes, double cost) {
+          Best& then = best[i + more_paths][stroke + more_strokes];
+          if (before + cost < then.cost) then = {before + cost, {path, more_paths, stroke, more_strokes, cost}};
+        };
+        if (stroke < strokes) reach(0, 1, left_over_cost);
+        if (i == paths) continue;
+        reach(1, 0, costs->is_tap(path) ? 0.0 : left_over_cost);
+        if (stroke == strokes) continue;
+        reach(1, 1, costs->single(path, stroke).cost);
+        for (std::size_t more = 2; more <= std::min(max_joined, strokes - stroke); ++more) {
+          reach(1, more, costs->joined(path, stroke, more).cost + join_price * static_cast<double>(more - 1));
+        }
+        if (i + 1 < paths && order[i + 1] == path + 1) reach(2, 1, costs->broken(path, stroke).cost + break_price);
+      }
+    }
+    StrokeReading reading{{}, best[paths][strokes].cost, costs};
+    for (std::size_t i = paths, stroke = strokes; i > 0 || stroke > 0;) {
+      const ReadingStep& step = best[i][stroke].step;
+      reading.steps.push_back(step);
+      i -= step.paths;
+      stroke -= step.strokes;
+    }
+    std::reverse(reading.steps.begin(), reading.steps.end());
+    return reading;
+  }
+
+  const Character& character_;
+  const StrokeOutlines& strokes_;
+  const std::span<const PenPath> paths_;
+  const std::vector<DrawnLine> drawn_;
+  const StrokeTolerances& tolerances_;
+  long comparisons_ = 0;
+};
+
+}  // namespace
+
+const PairCost& StrokeReading::pair(const ReadingStep& step) const {
+  if (step.paths > 1) return costs->broken(step.path, step.stroke);
+  if (step.strokes > 1) return costs->joined(step.path, step.stroke, step.strokes);
+  return costs->single(step.path, step.stroke);
+}
+
+double StrokeReading::mean_cost() const {
+  const std::size_t most = std::max(costs->paths(), costs->strokes());
+  return most > 0 ? cost / static_cast<double>(most) : 0.0;
+}
+
+WritingDirection direction_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes,
+                              const StrokeTolerances& tolerances) {
+  if (reading.costs->is_tap(step.path)) return WritingDirection::unknown;
+  const PairCost& pair = reading.pair(step);
+  const double length = strokes.run(step.stroke, step.strokes).length;
+  const auto runs_along = [&](double accord, double trusted_length, double angle) {
+    return std::acos(std::clamp(accord, -1.0, 1.0)) <= angle + (1.0 - trust_in_direction(trusted_length)) * short_angle;
+  };
+  if (pair.with >= pair.against) {
+    if (runs_along(pair.with, length, tolerances.direction)) return WritingDirection::forwards;
+  } else {
+    // Something much longer than a dot is no dot written backwards.
+    const double longer = std::max(length, reading.costs->length(step.path));
+    if (runs_along(pair.against, longer, std::min(tolerances.direction, opposite_way))) {
+      return WritingDirection::backwards;
+    }
+  }
+  return step.paths > 1 || step.strokes > 1 ? WritingDirection::forwards : WritingDirection::neither;
+}
+
+StrokeReading read_strokes(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths,
+                           const StrokeTolerances& tolerances) {
+  return Reader(character, strokes, paths, tolerances).read();
+}
+
+}  // namespace calligraphy
