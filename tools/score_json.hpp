@@ -12,11 +12,18 @@
 
 namespace calligraphy::tools {
 
+/// Pen-downs and strokes from 1; null for none.
 inline nlohmann::ordered_json remark_json(const StrokeRemark& remark) {
   using Json = nlohmann::ordered_json;
+  const auto number = [](int index) { return index >= 0 ? Json(index + 1) : Json(); };
   return {{"kind", calligraphy::to_string(remark.kind)},
-          {"pen_down", remark.path >= 0 ? Json(remark.path + 1) : Json()},
-          {"stroke", remark.stroke >= 0 ? Json(remark.stroke + 1) : Json()},
+          {"pen_down", number(remark.path)},
+          {"pen_down_count", remark.path_count},
+          {"stroke", number(remark.stroke)},
+          {"stroke_count", remark.stroke_count},
+          {"other_pen_down", number(remark.other_path)},
+          {"other_stroke", number(remark.other_stroke)},
+          {"place_em", {remark.place.x(), remark.place.y()}},
           {"reason", remark.reason}};
 }
 

@@ -53,6 +53,7 @@ calligraphy_status calligraphy_match_drawn(const calligraphy_match* match, int32
                   .in_turn = found.in_turn,
                   .tap = found.tap,
                   .direction = static_cast<std::int32_t>(found.direction),
+                  .attempt = found.attempt,
                   .distance = found.distance});
   });
 }
@@ -67,9 +68,16 @@ calligraphy_status calligraphy_match_remark(const calligraphy_match* match, int3
   return guarded([&] {
     const StrokeRemark& found = item("index", object<MatchResult>(match).remarks, index);
     if (remark) {
-      write_struct(
-          remark, "calligraphy_remark",
-          {.size = 0, .kind = static_cast<std::int32_t>(found.kind), .path = found.path, .stroke = found.stroke});
+      write_struct(remark, "calligraphy_remark",
+                   {.size = 0,
+                    .kind = static_cast<std::int32_t>(found.kind),
+                    .path = found.path,
+                    .path_count = found.path_count,
+                    .stroke = found.stroke,
+                    .stroke_count = found.stroke_count,
+                    .other_path = found.other_path,
+                    .other_stroke = found.other_stroke,
+                    .place = {found.place.x(), found.place.y()}});
     }
     if (reason) *reason = found.reason.c_str();
   });

@@ -130,9 +130,15 @@ void draw_label(pugi::xml_node parent, pugi::xml_node halos, Labels& labels, std
   add_text(parent, centre.x(), y, label_size, text, {{"fill", colour}});
 }
 
+bool is_about(const StrokeRemark& remark, int path) {
+  if (remark.path <= path && path < remark.path + remark.path_count) return true;
+  return remark.kind == StrokeRemarkKind::order && remark.other_path == path;
+}
+
 bool has_remark(const MatchResult& match, std::size_t path, std::initializer_list<StrokeRemarkKind> kinds) {
   return std::any_of(match.remarks.begin(), match.remarks.end(), [&](const StrokeRemark& remark) {
-    return remark.path == static_cast<int>(path) && std::find(kinds.begin(), kinds.end(), remark.kind) != kinds.end();
+    return is_about(remark, static_cast<int>(path)) &&
+           std::find(kinds.begin(), kinds.end(), remark.kind) != kinds.end();
   });
 }
 

@@ -1,33 +1,15 @@
 // What people are told of a stroke or a pen-down.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include <calligraphy/model/character.hpp>
 #include <calligraphy/practice/stroke_matching.hpp>
 
-#include "stroke_reading.hpp"
-
 namespace calligraphy {
 
-/// The sentences for the remarks on one reading.
-class RemarkWords {
- public:
-  RemarkWords(const Character& character, const MatchResult& match, const StrokeReading& reading);
-
-  std::string order(int path) const;
-  std::string backwards(int path) const;
-  std::string other_shape(int path) const;
-  std::string joined(int path) const;
-  std::string broken(int path) const;
-  std::string extra(int path) const;
-
- private:
-  std::string stroke(int index) const;
-
-  const std::vector<Stroke> strokes_;
-  const MatchResult& match_;
-  const StrokeReading& reading_;
-};
+/// One sentence. `drawn` has the pen-downs of the remark.
+std::string sentence(const StrokeRemark& remark, std::span<const DrawnStroke> drawn, std::span<const Stroke> strokes);
 
 }  // namespace calligraphy

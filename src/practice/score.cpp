@@ -263,11 +263,12 @@ class CharacterScorer {
     return nearest;
   }
 
-  /// A pen-down that joined several strokes has one remark.
-  int strokes_with(StrokeRemarkKind kind) const {
+  /// A pen-down that joined several strokes wrote each of them so.
+  template <typename Wrong>
+  int strokes_written(Wrong wrong) const {
     int count = 0;
-    for (const StrokeRemark& remark : result_.match.remarks) {
-      if (remark.kind == kind) count += result_.match.drawn[static_cast<std::size_t>(remark.path)].stroke_count;
+    for (const DrawnStroke& drawn : result_.match.drawn) {
+      if (drawn.stroke >= 0 && !drawn.continues && wrong(drawn)) count += drawn.stroke_count;
     }
     return count;
   }
@@ -302,9 +303,12 @@ class CharacterScorer {
     result_.dtw_distance = dtw / result_.strokes_written;
     const double strokes = result_.stroke_count, right = result_.strokes_written;
     result_.contour = contour / strokes;
-    result_.external_sequence = std::max(0.0, right - strokes_with(StrokeRemarkKind::order)) /
-                                (strokes + result_.match.count(StrokeRemarkKind::extra));
-    result_.internal_sequence = std::max(0.0, right - strokes_with(StrokeRemarkKind::direction)) / strokes;
+    const int out_of_turn = strokes_written([](const DrawnStroke& drawn) { return !drawn.in_turn; });
+    const int backwards =
+        strokes_written([](const DrawnStroke& drawn) { return drawn.direction == WritingDirection::backwards; });
+    result_.external_sequence =
+        std::max(0.0, right - out_of_turn) / (strokes + result_.match.count(StrokeRemarkKind::extra));
+    result_.internal_sequence = std::max(0.0, right - backwards) / strokes;
     result_.fidelity = std::cbrt(result_.contour * result_.external_sequence * result_.internal_sequence);
   }
 

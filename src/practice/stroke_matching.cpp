@@ -7,10 +7,9 @@
 
 #include <calligraphy/base/error.hpp>
 
-#include "longest_rise.hpp"
-#include "remark_words.hpp"
-#include "stroke_name.hpp"
 #include "stroke_reading.hpp"
+#include "stroke_remarks.hpp"
+#include "writing_order.hpp"
 
 namespace calligraphy {
 namespace {
@@ -62,43 +61,16 @@ double distance_of(const ReadingStep& step, const StrokeReading& reading, const 
   return mean_distance(step.paths > 1 ? costs.place(drawn[step.path].with_next) : costs.placed(step.path), wanted);
 }
 
-/// In turn is the longest series of pen-downs whose strokes rise; of several as long, the one drawn last.
-void find_in_turn(std::vector<DrawnStroke>& drawn) {
-  std::vector<DrawnStroke*> written;
-  std::vector<std::size_t> strokes;
-  for (DrawnStroke& each : drawn) {
-    if (each.stroke < 0 || each.continues) continue;
-    each.in_turn = false;
-    written.push_back(&each);
-    strokes.push_back(static_cast<std::size_t>(each.stroke));
+/// Of a pen-down that wrote nothing: the stroke that it resembles most.
+std::optional<std::size_t> attempted_stroke(const StrokeCosts& costs, std::size_t path) {
+  std::optional<std::size_t> nearest;
+  double least = left_over_cost;
+  for (std::size_t stroke = 0; stroke < costs.strokes() && !costs.is_tap(path); ++stroke) {
+    if (costs.single(path, stroke).cost > least) continue;
+    least = costs.single(path, stroke).cost;
+    nearest = stroke;
   }
-  for (const std::size_t place : longest_rise(strokes)) written[place]->in_turn = true;
-}
-
-void add_remarks(MatchResult& match, const Character& character, const StrokeReading& reading) {
-  const RemarkWords words(character, match, reading);
-  for (int path = 0; path < static_cast<int>(match.drawn.size()); ++path) {
-    const DrawnStroke& drawn = match.drawn[static_cast<std::size_t>(path)];
-    const auto add = [&](StrokeRemarkKind kind, std::string reason) {
-      match.remarks.push_back({kind, path, drawn.stroke, std::move(reason)});
-    };
-    if (drawn.stroke < 0) {
-      if (!drawn.tap) add(StrokeRemarkKind::extra, words.extra(path));  // a tap is a pen that bounced
-      continue;
-    }
-    if (drawn.continues) {
-      add(StrokeRemarkKind::broken, words.broken(path));
-      continue;
-    }
-    if (drawn.stroke_count > 1) add(StrokeRemarkKind::joined, words.joined(path));
-    if (!drawn.in_turn) add(StrokeRemarkKind::order, words.order(path));
-    if (drawn.direction == WritingDirection::backwards) add(StrokeRemarkKind::direction, words.backwards(path));
-    if (drawn.direction == WritingDirection::neither) add(StrokeRemarkKind::shape, words.other_shape(path));
-  }
-  for (const ReadingStep& step : reading.steps) {
-    if (step.paths > 0) continue;
-    match.remarks.push_back(missing_remark(static_cast<int>(step.stroke), *strokes(character)[step.stroke].type));
-  }
+  return nearest;
 }
 
 void require_valid(const Character& character, std::span<const PenPath> paths) {
@@ -161,16 +133,20 @@ MatchResult match_strokes(const Character& character, std::span<const PenPath> p
     for (std::size_t path = step.path; path < step.path + step.paths; ++path) {
       DrawnStroke& drawn = match.drawn[path];
       drawn.tap = reading.costs->is_tap(path);
-      if (step.strokes == 0) continue;
-      drawn.stroke = static_cast<int>(step.stroke);
-      drawn.stroke_count = static_cast<int>(step.strokes);
-      drawn.continues = path > step.path;
-      drawn.direction = direction_of(step, reading, outlines, tolerances);
-      drawn.distance = distance_of(step, reading, outlines, lines);
+      if (step.strokes > 0) {
+        drawn.stroke = static_cast<int>(step.stroke);
+        drawn.stroke_count = static_cast<int>(step.strokes);
+        drawn.continues = path > step.path;
+        drawn.direction = direction_of(step, reading, outlines, tolerances);
+        drawn.distance = distance_of(step, reading, outlines, lines);
+      } else if (const auto stroke = attempted_stroke(*reading.costs, path)) {
+        drawn.attempt = static_cast<int>(*stroke);
+        drawn.direction = direction_of({path, 1, *stroke, 1, 0.0}, reading, outlines, tolerances);
+      }
     }
   }
   find_in_turn(match.drawn);
-  add_remarks(match, character, reading);
+  match.remarks = remarks_on(character, paths, match.drawn, match.fit);
   return match;
 }
 

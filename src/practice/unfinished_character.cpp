@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "resemblance.hpp"
-#include "stroke_name.hpp"
+#include "stroke_remarks.hpp"
 
 namespace calligraphy {
 namespace {
@@ -74,16 +74,10 @@ double cost(const MatchResult& result, std::span<const PenPath> paths, const std
   return sum;
 }
 
-/// Takes out what was only supposed, the paths from `count` on: their strokes are missing.
-void take_back(MatchResult& result, std::size_t count, const Character& character) {
-  result.drawn.resize(count);
-  std::erase_if(result.remarks, [count](const StrokeRemark& remark) {
-    return remark.path >= static_cast<int>(count) || remark.kind == StrokeRemarkKind::missing;
-  });
-  for (std::size_t i = 0; const Stroke& stroke : strokes(character)) {
-    if (!is_written(result, i)) result.remarks.push_back(missing_remark(static_cast<int>(i), *stroke.type));
-    ++i;
-  }
+/// Takes out what was only supposed, all but the paths that were drawn: their strokes are missing.
+void take_back(MatchResult& result, std::span<const PenPath> paths, const Character& character) {
+  result.drawn.resize(paths.size());
+  result.remarks = remarks_on(character, paths, result.drawn, result.fit);
 }
 
 /// Of the ways to suppose the rest of a character, the one that leaves the least to remark.
@@ -113,7 +107,7 @@ MatchResult match_supposing(const Character& character, std::span<const PenPath>
     }
     suppose(count, paths.back());
   }
-  take_back(best, paths.size(), character);
+  take_back(best, paths, character);
   return best;
 }
 

@@ -388,6 +388,7 @@ TEST_CASE("pen-downs are matched as in C++, with remarks for people") {
     CHECK((drawn.in_turn != 0) == there.in_turn);
     CHECK((drawn.tap != 0) == there.tap);
     CHECK(drawn.direction == static_cast<int>(there.direction));
+    CHECK(drawn.attempt == there.attempt);
     if (std::isfinite(there.distance)) CHECK(drawn.distance == Approx(there.distance).margin(1e-12));
     taps += there.tap;
     continuations += there.continues;
@@ -405,7 +406,12 @@ TEST_CASE("pen-downs are matched as in C++, with remarks for people") {
     const StrokeRemark& there = expected.remarks[static_cast<std::size_t>(i)];
     CHECK(remark.kind == static_cast<int>(there.kind));
     CHECK(remark.path == there.path);
+    CHECK(remark.path_count == there.path_count);
     CHECK(remark.stroke == there.stroke);
+    CHECK(remark.stroke_count == there.stroke_count);
+    CHECK(remark.other_path == there.other_path);
+    CHECK(remark.other_stroke == there.other_stroke);
+    CHECK((Point(remark.place[0], remark.place[1]) - there.place).norm() < 1e-9);
     CHECK(reason == there.reason);
   }
   CHECK(calligraphy_match_remark(match.get(), count, &remark, nullptr) == CALLIGRAPHY_INVALID_VALUE);
@@ -431,7 +437,7 @@ TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its 
   CHECK(sizeof(calligraphy_tick) == 360);
   CHECK(sizeof(calligraphy_servo_state) == 64);
   CHECK(sizeof(calligraphy_drawn_stroke) == 40);
-  CHECK(sizeof(calligraphy_remark) == 16);
+  CHECK(sizeof(calligraphy_remark) == 48);
   CHECK(sizeof(calligraphy_character_score) == 208);
   CHECK(sizeof(calligraphy_stroke_score) == 56);
   CHECK(sizeof(calligraphy_pen_down_score) == 64);

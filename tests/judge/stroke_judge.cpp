@@ -14,11 +14,9 @@
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/practice/pen_trace.hpp>
 
-#include "base/parallel.hpp"
+#include "cases.hpp"
 #include "corruptions.hpp"
 #include "guidance/statistics.hpp"
-#include "practice/resemblance.hpp"
-#include "practice/stroke_reading.hpp"
 #include "stability/arguments.hpp"
 
 namespace {
@@ -67,19 +65,6 @@ bool is_of_half(char32_t code, const std::string& half) {
   }
   return is_printed_half(code) == (half == "printed");
 }
-
-struct Case {
-  const RightPen* pen;
-  std::uint64_t seed;
-  Corrupted corrupted;
-};
-
-struct Outcome {
-  bool told = false;         ///< exactly
-  bool silent = false;       ///< nothing is remarked
-  double comparisons = 0.0;  ///< of a pen-down with a stroke, per pen-down and stroke
-  std::string text;          ///< what is told
-};
 
 /// A drawing without times, as a pen of 0.5 em/s with 0.3 s in the air before each stroke draws it.
 PenTrace trace_of(const Case& each, const std::string& row) {
@@ -156,48 +141,10 @@ class Program {
     std::erase_if(sources_, [](const std::vector<RightPen>& pens) { return pens.empty(); });
   }
 
-  /// Adds cases of a source: each of its pens in turn, until there are enough, or none of them can have the fault.
-  void add_cases(std::vector<Case>& cases, std::size_t source, std::size_t row, StrokeClass stroke_class) const {
-    const std::vector<RightPen>& pens = sources_[source];
-    const Corruption& corruption = corruptions()[row];
-    std::size_t count = pens.size();
-    if (corruption.is_random()) count = (case_count_ + source) / sources_.size();  // halves, or all
-    const std::size_t most = cases.size() + count;
-    for (int round = 0; cases.size() < most; ++round) {
-      const std::size_t at_first = cases.size();
-      for (std::size_t i = 0; i < pens.size() && cases.size() < most; ++i) {
-        Random random(seed_, {static_cast<int>(row), static_cast<int>(source), static_cast<int>(i), round});
-        const std::uint64_t seed = random.bits() >> 32;
-        auto corrupted = corrupt(pens[i], corruption, seed, stroke_class);
-        if (corrupted) cases.push_back({&pens[i], seed, std::move(*corrupted)});
-      }
-      if (cases.size() == at_first) return;
-    }
-  }
-
-  Outcome judge(const Case& each) const {
-    const MatchResult match = match_strokes(each.pen->character, each.corrupted.paths, tolerances_);
-    const std::vector<Truth>& truths = each.corrupted.truths;
-    const bool told =
-        std::any_of(truths.begin(), truths.end(), [&](const Truth& truth) { return tells(match, truth); });
-    return {told, match.remarks.empty(), comparisons(each), describe(match)};
-  }
-
-  double comparisons(const Case& each) const {
-    std::vector<PenPath> paths;
-    for (const PenPath& path : each.corrupted.paths) paths.push_back(without_jitter(path, pen_spacing));
-    const StrokeOutlines outlines(each.pen->character);
-    const StrokeReading reading = read_strokes(each.pen->character, outlines, paths, tolerances_);
-    return static_cast<double>(reading.comparisons) / static_cast<double>(paths.size() * outlines.count());
-  }
-
   void run_row(std::size_t row, StrokeClass stroke_class) {
     const Corruption& corruption = corruptions()[row];
-    std::vector<Case> cases;
-    for (std::size_t source = 0; source < sources_.size(); ++source) add_cases(cases, source, row, stroke_class);
-    std::vector<Outcome> outcomes(cases.size());
-    parallel_for(
-        cases.size(), threads_, [](double) {}, [&](std::size_t i) { outcomes[i] = judge(cases[i]); });
+    const std::vector<Case> cases = cases_of(sources_, row, stroke_class, case_count_, seed_);
+    const std::vector<Outcome> outcomes = judge_cases(cases, tolerances_, threads_);
     ClusteredMean share;
     std::vector<double> comparisons;
     std::set<char32_t> characters;

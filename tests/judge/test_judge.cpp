@@ -1,13 +1,17 @@
-// The instruments of stroke_judge, which do not know match_strokes(): which pens are right, and what is done to them.
+// The instruments of stroke_judge, which do not know match_strokes(): which pens are right, and what is done to them;
+// and the marks that match_strokes() keeps by them.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
+#include <sstream>
 
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/model/character_list.hpp>
 
+#include "cases.hpp"
 #include "catch.hpp"
-#include "corruptions.hpp"
+#include "guidance/statistics.hpp"
 #include "polyline.hpp"
 #include "practice/pen_traces.hpp"
 
@@ -62,9 +66,9 @@ MatchResult result_of(const Truth& truth) {
   }
   for (const Due& due : truth.due()) {
     const bool extra = due.kind == StrokeRemarkKind::extra;
-    match.remarks.push_back({due.kind, extra ? due.of : -1, extra ? -1 : due.of, ""});
+    match.remarks.push_back({.kind = due.kind, .path = extra ? due.of : -1, .stroke = extra ? -1 : due.of});
   }
-  if (truth.is_moved()) match.remarks.push_back({StrokeRemarkKind::order, 0, truth.first_moved, ""});
+  if (truth.is_moved()) match.remarks.push_back({.path = 0, .stroke = truth.first_moved});
   return match;
 }
 
@@ -296,7 +300,7 @@ TEST_CASE("the truth is told exactly by a result that says it, and by no other",
         const MatchResult match = result_of(truth);
         CHECK(tells(match, truth));
         MatchResult more = match;
-        more.remarks.push_back({StrokeRemarkKind::missing, -1, 0, ""});
+        more.remarks.push_back({.kind = StrokeRemarkKind::missing, .stroke = 0});
         CHECK_FALSE(tells(more, truth));
         if (!match.remarks.empty()) {
           MatchResult less = match;
@@ -315,11 +319,125 @@ TEST_CASE("a remark of order on a stroke that has not moved does not tell the tr
   check_each("adjacent", [](const RightPen&, const Corrupted& corrupted) {
     const Truth& truth = corrupted.truths.front();
     MatchResult match = result_of(truth);
-    match.remarks.push_back({StrokeRemarkKind::order, 0, truth.last_moved, ""});
     CHECK(tells(match, truth));
-    match.remarks.push_back({StrokeRemarkKind::order, 0, truth.last_moved + 1, ""});
+    match.remarks.back() = {.path = 0, .stroke = truth.last_moved + 1};
+    CHECK_FALSE(tells(match, truth));
+    match.remarks.back() = {.path = 0, .stroke = truth.last_moved};
+    CHECK(tells(match, truth));
+    match.remarks.push_back(match.remarks.back());  // a second remark on the same fault
     CHECK_FALSE(tells(match, truth));
   });
+}
+
+namespace {
+
+/// Of a row: at most so many [%] with any remark, or at least so many told exactly.
+struct Mark {
+  std::string row;
+  double percent;
+  StrokeClass stroke_class = StrokeClass::any;
+};
+
+void check_mark(const std::vector<RightPen>& pens, const Mark& mark, std::size_t count,
+                const StrokeTolerances& tolerances) {
+  const Corruption& corruption = corruption_named(mark.row);
+  const auto row = static_cast<std::size_t>(&corruption - corruptions().data());
+  const std::vector<std::vector<RightPen>> sources = {pens};
+  const std::vector<Case> cases = cases_of(sources, row, mark.stroke_class, count, 1);
+  const std::vector<Outcome> outcomes = judge_cases(cases, tolerances, 0);
+  Share share;
+  std::vector<double> comparisons;
+  std::string failed;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const bool counted = corruption.is_clean() ? !outcomes[i].silent : outcomes[i].told;
+    share.add(counted);
+    comparisons.push_back(outcomes[i].comparisons);
+    if (counted == corruption.is_clean()) {
+      failed += encode_utf8(cases[i].pen->character.code) + ": " + describe(cases[i].corrupted.truths.front()) +
+                "; told " + outcomes[i].text + "\n";
+    }
+  }
+  INFO(mark.row << ", " << to_string(mark.stroke_class) << ": " << share.percent() << " % of " << share.of << "\n"
+                << failed);
+  CHECK(share.of > 0);
+  CHECK((corruption.is_clean() ? share.percent() <= mark.percent : share.percent() >= mark.percent));
+  CHECK(quantile(comparisons, 0.5) <= (corruption.is_clean() ? 20.0 : 52.0));
+}
+
+void check_marks(const std::vector<RightPen>& pens, const std::vector<Mark>& marks, std::size_t count,
+                 const StrokeTolerances& tolerances = {}) {
+  for (const Mark& mark : marks) check_mark(pens, mark, count, tolerances);
+}
+
+}  // namespace
+
+TEST_CASE("exact pens with faults and deviations are told exactly", "[judge]") {
+  check_marks(copies(),
+              {{"as-they-are", 0.0},
+               {"shift-15", 0.0},
+               {"scale-0.6", 0.0},
+               {"rotation+25", 0.0},
+               {"rotation-25", 0.0},
+               {"shear+25", 0.0},
+               {"shear-25", 0.0},
+               {"jitter-1", 1.0},
+               {"jitter-2", 2.0},
+               {"displaced-5", 2.0},
+               {"displaced-8", 9.0},
+               {"swap", 99.0},
+               {"adjacent", 99.0},
+               {"reverse", 99.0},
+               {"drop", 98.0},
+               {"split", 98.0},
+               {"join", 98.0},
+               {"extra", 97.0},
+               {"twice", 98.0},
+               {"turned", 98.0},
+               {"block", 99.0},
+               {"swap,jitter-1", 98.0},
+               {"swap,displaced-5", 87.0},
+               {"reverse,displaced-5", 97.0},
+               {"turned-short", 80.0}},
+              300);
+}
+
+TEST_CASE("of people's pens that wrote a character right, what is told is right", "[judge][corpus]") {
+  const char* const directories = std::getenv("CALLIGRAPHY_ALL_PEN_TRACES");
+  const char* const kanji = std::getenv("CALLIGRAPHY_KANJI_FILE");
+  const auto hanzi = calligraphy_test::imported_characters();
+  if (directories == nullptr || kanji == nullptr || !hanzi) {
+    WARN("skipped: CALLIGRAPHY_ALL_PEN_TRACES and CALLIGRAPHY_KANJI_FILE name no pen traces and no characters");
+    return;
+  }
+  std::vector<std::string> all;
+  std::istringstream names(directories);
+  for (std::string name; std::getline(names, name, ':');) all.push_back(name);
+  std::vector<RightPen> pens = pens_of_people(all, {*hanzi, CharacterSet::open(kanji)});
+  std::erase_if(pens, [](const RightPen& pen) { return !is_printed_half(pen.character.code); });
+  CHECK(pens.size() >= 20);
+  check_marks(pens,
+              {{"as-they-are", 1.5},
+               {"rotation+25", 1.5},
+               {"rotation-25", 1.5},
+               {"shear+25", 1.5},
+               {"shear-25", 1.5},
+               {"jitter-1", 3.0},
+               {"jitter-2", 5.0},
+               {"displaced-5", 4.0},
+               {"displaced-8", 9.0},
+               {"swap", 98.5},
+               {"adjacent", 98.5},
+               {"reverse", 98.5},
+               {"drop", 96.5},
+               {"split", 96.5},
+               {"join", 96.5},
+               {"extra", 96.5},
+               {"swap,jitter-1", 97.0},
+               {"swap,displaced-5", 87.0},
+               {"reverse,displaced-5", 96.0}},
+              300);
+  check_marks(pens, {{"as-they-are", 4.0}}, 300, StrokeTolerances::strict());
+  check_marks(pens, {{"as-they-are", 0.8}}, 300, StrokeTolerances::lenient());
 }
 
 }  // namespace calligraphy_test

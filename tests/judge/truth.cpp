@@ -59,7 +59,7 @@ bool tells(const MatchResult& match, const Truth& truth) {
     return false;
   }
   if (told(match) != truth.due()) return false;
-  if ((match.count(StrokeRemarkKind::order) > 0) != truth.is_moved()) return false;
+  if (match.count(StrokeRemarkKind::order) != (truth.is_moved() ? 1 : 0)) return false;
   return std::all_of(match.remarks.begin(), match.remarks.end(), [&](const StrokeRemark& remark) {
     return remark.kind != StrokeRemarkKind::order ||
            (truth.first_moved <= remark.stroke && remark.stroke <= truth.last_moved);

@@ -40,7 +40,7 @@ struct Truth {
 };
 
 /// Whether each pen-down is told to have written what it wrote, and everything that is to be remarked is, and nothing
-/// else. Where strokes are moved there is at least one remark of order, and each is of one that is moved.
+/// else. Where strokes are moved, by one fault, there is one remark of order, of one that is moved.
 bool tells(const calligraphy::MatchResult& match, const Truth& truth);
 
 /// "1 2 4+5 4~ x, direction 2, order 1..3": the strokes of each pen-down, from 1, joined ones as 4+5, the rest of a

@@ -97,7 +97,9 @@ bool is_told(const Shuffled& shuffled, const MatchResult& match) {
     const WritingDirection expected = shuffled.backwards[i] ? WritingDirection::backwards : WritingDirection::forwards;
     if (!drawn.tap && drawn.direction != expected) return false;
   }
-  return match.count(StrokeRemarkKind::order) == out_of_turn(shuffled.order) &&
+  const auto moved =
+      std::count_if(match.drawn.begin(), match.drawn.end(), [](const auto& each) { return !each.in_turn; });
+  return moved == out_of_turn(shuffled.order) && (match.count(StrokeRemarkKind::order) > 0) == (moved > 0) &&
          match.count(StrokeRemarkKind::missing) + match.count(StrokeRemarkKind::extra) == 0;
 }
 
@@ -209,8 +211,9 @@ TEST_CASE("three parallel lines are identified by their positions", "[practice]"
   }
   SECTION("from the bottom up") {
     const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[2], lines[1], lines[0]});
-    CHECK(match.count(StrokeRemarkKind::order) == 2);
-    CHECK(match.remarks.size() == 2);
+    REQUIRE(match.remarks.size() == 1);
+    CHECK(match.remarks[0].reason == "stroke 3 (héng) and stroke 1 (héng) changed places");
+    CHECK(match.drawn[1].in_turn);
   }
   SECTION("one of them, in its place") {
     for (int stroke = 0; stroke < 3; ++stroke) {
@@ -228,6 +231,119 @@ TEST_CASE("three parallel lines are identified by their positions", "[practice]"
     REQUIRE(match.remarks.size() == 1);
     CHECK(match.remarks[0].kind == StrokeRemarkKind::direction);
     CHECK(match.remarks[0].reason == "stroke 2 (héng) was written backwards");
+  }
+}
+
+TEST_CASE("a block of strokes that was moved, and two strokes that changed places, are each one remark", "[practice]") {
+  Sequence random(47);
+  for (const Character& character : built_in_characters().characters) {
+    const std::vector<PenPath> paths = copy_of(character);
+    const auto count = static_cast<int>(paths.size());
+    if (count < 5) continue;
+    const auto told_once = [&](const std::vector<int>& order) {
+      std::vector<PenPath> drawn;
+      for (const int stroke : order) drawn.push_back(paths[static_cast<std::size_t>(stroke)]);
+      const MatchResult match = match_strokes(character, drawn);
+      CAPTURE(encode_utf8(character.code), order, told(match));
+      REQUIRE(match.remarks.size() == 1);
+      CHECK(match.remarks[0].kind == StrokeRemarkKind::order);
+      CHECK((match.remarks[0].place - paths[static_cast<std::size_t>(match.remarks[0].stroke)].front()).norm() < 1.0);
+      return match.remarks[0];
+    };
+    std::vector<int> order(paths.size());
+    std::iota(order.begin(), order.end(), 0);
+    // The last two strokes first.
+    std::vector<int> moved = order;
+    std::rotate(moved.begin(), moved.end() - 2, moved.end());
+    const StrokeRemark early = told_once(moved);
+    CHECK(early.path == 0);
+    CHECK(early.path_count == 2);
+    CHECK(early.stroke == count - 2);
+    CHECK(early.stroke_count == 2);
+    CHECK(early.other_path == -1);
+    CHECK(early.other_stroke == 0);
+    // The first two last.
+    moved = order;
+    std::rotate(moved.begin(), moved.begin() + 2, moved.end());
+    const StrokeRemark late = told_once(moved);
+    CHECK(late.path == count - 2);
+    CHECK(late.stroke == 0);
+    CHECK(late.stroke_count == 2);
+    CHECK(late.other_stroke == count - 1);
+    // Two with others between them.
+    const int first = static_cast<int>(random.between(0.0, count - 3.0));
+    const int second = first + 3 < count ? first + 3 : first + 2;
+    moved = order;
+    std::swap(moved[static_cast<std::size_t>(first)], moved[static_cast<std::size_t>(second)]);
+    const StrokeRemark exchanged = told_once(moved);
+    if (second == first + 3) {
+      CHECK(exchanged.path == first);
+      CHECK(exchanged.stroke == second);
+      CHECK(exchanged.other_path == second);
+      CHECK(exchanged.other_stroke == first);
+      CHECK(exchanged.reason.find("changed places") != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("a remark has all pen-downs and strokes that it is about, and a place to point at", "[practice]") {
+  const Character character = character_of("永");
+  const std::vector<PenPath> strokes = copy_of(character);
+  const auto only = [&](const std::vector<PenPath>& drawn, StrokeRemarkKind kind) {
+    const MatchResult match = match_strokes(character, drawn);
+    CAPTURE(told(match));
+    REQUIRE(match.remarks.size() == 1);
+    REQUIRE(match.remarks[0].kind == kind);
+    return match.remarks[0];
+  };
+  const auto distance_to = [](const Point& place, const PenPath& path) {
+    double nearest = 1e9;
+    for (const Point& point : path) nearest = std::min(nearest, (point - place).norm());
+    return nearest;
+  };
+  std::vector<PenPath> drawn = strokes;
+  SECTION("missing, where it belongs beside what was written elsewhere") {
+    drawn.erase(drawn.begin() + 2);
+    for (PenPath& path : drawn) {
+      for (Point& point : path) point = 0.5 * point + Point(2.0, 1.0);
+    }
+    const StrokeRemark remark = only(drawn, StrokeRemarkKind::missing);
+    CHECK(remark.path == -1);
+    CHECK(remark.path_count == 0);
+    CHECK(remark.stroke == 2);
+    CHECK(remark.stroke_count == 1);
+    CHECK(distance_to(2.0 * (remark.place - Point(2.0, 1.0)), strokes[2]) < 0.05);
+  }
+  SECTION("joined") {
+    append(drawn[2], strokes[3]);
+    append(drawn[2], strokes[4]);
+    drawn.resize(3);
+    const StrokeRemark remark = only(drawn, StrokeRemarkKind::joined);
+    CHECK(remark.path == 2);
+    CHECK(remark.path_count == 1);
+    CHECK(remark.stroke == 2);
+    CHECK(remark.stroke_count == 3);
+    CHECK(distance_to(remark.place, drawn[2]) < 0.05);
+  }
+  SECTION("broken") {
+    const auto half = static_cast<std::ptrdiff_t>(drawn[1].size() / 2);
+    drawn.insert(drawn.begin() + 2, PenPath(drawn[1].begin() + half, drawn[1].end()));
+    drawn[1].resize(static_cast<std::size_t>(half));
+    const StrokeRemark remark = only(drawn, StrokeRemarkKind::broken);
+    CHECK(remark.path == 1);
+    CHECK(remark.path_count == 2);
+    CHECK(remark.stroke == 1);
+    CHECK(remark.reason == "stroke 2 (héngzhégōu) was written in two pen-downs, 2 and 3");
+  }
+  SECTION("extra") {
+    drawn.insert(drawn.begin() + 1, strokes[0]);
+    for (Point& point : drawn[1]) point += Point(0.06, 0.0);
+    const StrokeRemark remark = only(drawn, StrokeRemarkKind::extra);
+    CHECK(remark.path == 1);
+    CHECK(remark.stroke == -1);
+    CHECK(remark.other_path == 0);
+    CHECK(remark.other_stroke == 0);
+    CHECK(match_strokes(character, drawn).drawn[1].attempt == 0);
   }
 }
 

@@ -1,5 +1,5 @@
 // The score of a character, and the remarks, each of which points at its place on the paper.
-import { em } from "./desk.js";
+import { em, margin } from "./desk.js";
 import { colours } from "./paper.js";
 
 /** @typedef {import("./score_worker.js").Score} Score */
@@ -65,24 +65,31 @@ function remarksOf(lesson, score) {
 function markRemarks(lesson, score, chosen) {
   const { paper, desk } = lesson, context = paper.contexts.marks;
   const taken = /** @type {[number, number][]} */ ([]);
-  score.remarks.forEach(({ path, stroke }, i) => {
-    const penDown = path >= 0 ? lesson.penDownAt(score.pen_downs[path].begin) : undefined;
-    const template = desk.strokes[stroke];
+  score.remarks.forEach((remark, i) => {
     if (i === chosen) {
+      const strokes = range(remark.stroke, remark.stroke_count), paths = range(remark.path, remark.path_count);
+      const isExtra = remark.stroke < 0, changedPlaces = !isExtra && remark.other_path >= 0;
+      if (changedPlaces) paths.push(remark.other_path);
+      if (changedPlaces || (isExtra && remark.other_stroke >= 0)) strokes.push(remark.other_stroke);
       context.globalAlpha = 0.45;
-      if (template) paper.fillStroke("marks", template, colours.flash);
+      for (const stroke of strokes) paper.fillStroke("marks", desk.strokes[stroke], colours.flash);
       context.globalAlpha = 0.8;
-      const lines = lesson.isGuided ? [penDown?.guided] : penDown?.own ?? [];
-      for (const line of lines) line?.drawAll(context, colours.wrong);
+      for (const path of paths) {
+        const penDown = lesson.penDownAt(score.pen_downs[path].begin);
+        const lines = lesson.isGuided ? [penDown?.guided] : penDown?.own ?? [];
+        for (const line of lines) line?.drawAll(context, colours.wrong);
+      }
       context.globalAlpha = 1;
     }
-    const first = penDown?.guided.points[0];
-    let [x, y] = first ? [first.x, first.y] : template.start;
+    let [x, y] = [margin + em * remark.place[0], margin + em * remark.place[1]];
     while (taken.some(([a, b]) => Math.hypot(a - x, b - y) < em / 13)) x += em / 13;
     taken.push([x, y]);
     paper.markNumber(x, y, i + 1, i === chosen ? colours.wrong : "#8a8076");
   });
 }
+
+/** So many indices in a row. @param {number} first @param {number} count */
+const range = (first, count) => Array.from({ length: count }, (_, i) => first + i);
 
 /** @param {string} tag @param {string} [kind] its class @param {string} [text] */
 function create(tag, kind = "", text = "") {

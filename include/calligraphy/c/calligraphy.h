@@ -607,6 +607,7 @@ typedef struct calligraphy_drawn_stroke {
   int32_t in_turn;       ///< written in order, as far as the order can be determined
   int32_t tap;           ///< too short for a stroke with a direction
   int32_t direction;     ///< a calligraphy_direction
+  int32_t attempt;       ///< the stroke that it resembles, if it wrote none; -1: no stroke
   double distance;       ///< mean distance from what it wrote, once both are aligned [em]
 } calligraphy_drawn_stroke;
 
@@ -616,7 +617,7 @@ CALLIGRAPHY_API calligraphy_status calligraphy_match_drawn(const calligraphy_mat
 
 /// Kind of a remark.
 typedef enum calligraphy_remark_kind {
-  CALLIGRAPHY_REMARK_ORDER = 0,      ///< a stroke out of order
+  CALLIGRAPHY_REMARK_ORDER = 0,      ///< strokes out of order, or two that changed places
   CALLIGRAPHY_REMARK_DIRECTION = 1,  ///< a stroke written backwards
   CALLIGRAPHY_REMARK_SHAPE = 2,      ///< a stroke drawn as another shape
   CALLIGRAPHY_REMARK_JOINED = 3,     ///< strokes written without lifting the pen: no mistake of order
@@ -625,12 +626,17 @@ typedef enum calligraphy_remark_kind {
   CALLIGRAPHY_REMARK_EXTRA = 6       ///< a pen-down that matches no stroke of the character
 } calligraphy_remark_kind;
 
-/// A remark on a stroke or a pen-down.
+/// A remark: one fault, or what is told as one.
 typedef struct calligraphy_remark {
-  uint32_t size;   ///< sizeof(calligraphy_remark)
-  int32_t kind;    ///< a calligraphy_remark_kind
-  int32_t path;    ///< the pen-down; -1: none
-  int32_t stroke;  ///< the stroke of the character; -1: none
+  uint32_t size;         ///< sizeof(calligraphy_remark)
+  int32_t kind;          ///< a calligraphy_remark_kind
+  int32_t path;          ///< the pen-down, or the first of several; -1: none
+  int32_t path_count;    ///< pen-downs in a row
+  int32_t stroke;        ///< the stroke of the character, or the first of several; -1: none
+  int32_t stroke_count;  ///< strokes in a row
+  int32_t other_path;    ///< the pen-down whose stroke changed places with this one, or that wrote what this attempts
+  int32_t other_stroke;  ///< the stroke that was due, or written before; of an extra pen-down, that it attempts
+  double place[2];       ///< to point at, in the square of the character [em]
 } calligraphy_remark;
 
 /// Number of remarks.

@@ -29,13 +29,14 @@ struct DrawnStroke {
   bool continues = false;  ///< it continues the stroke that the previous pen-down began
   bool in_turn = true;     ///< written in order, as far as the order can be determined
   bool tap = false;        ///< shorter than tap_length
-  WritingDirection direction = WritingDirection::unknown;  ///< along what it wrote
+  int attempt = -1;        ///< the stroke that it resembles, if it wrote none; -1: no stroke
+  WritingDirection direction = WritingDirection::unknown;  ///< along what it wrote or attempted
   double distance = 0.0;  ///< mean distance from what it wrote, once both are aligned [em]
 };
 
 /// What there is to remark on a stroke or a pen-down.
 enum class StrokeRemarkKind {
-  order,      ///< a stroke out of order
+  order,      ///< a stroke, or several in a row, out of order; or two that changed places
   direction,  ///< a stroke written backwards
   shape,      ///< a stroke drawn as another shape, so that its direction is undetermined
   joined,     ///< strokes written without lifting the pen: connected writing, no mistake of order
@@ -47,18 +48,23 @@ enum class StrokeRemarkKind {
 /// "order", "direction", "shape", "joined", "broken", "missing", "extra".
 const char* to_string(StrokeRemarkKind kind) noexcept;
 
-/// A remark on a stroke or a pen-down.
+/// A remark: one fault, or what is told as one.
 struct StrokeRemark {
-  StrokeRemarkKind kind;  ///< what there is to remark
-  int path;               ///< the pen-down, from 0; -1: none
-  int stroke;             ///< the stroke of the character, from 0; -1: none
-  std::string reason;     ///< one sentence for people
+  StrokeRemarkKind kind = StrokeRemarkKind::order;  ///< what there is to remark
+  int path = -1;                                    ///< the pen-down, or the first of several, from 0; -1: none
+  int path_count = 0;                               ///< pen-downs in a row
+  int stroke = -1;        ///< the stroke of the character, or the first of several, from 0; -1: none
+  int stroke_count = 0;   ///< strokes in a row
+  int other_path = -1;    ///< the pen-down whose stroke changed places with this one, or that wrote what this attempts
+  int other_stroke = -1;  ///< the stroke that was due, or written before; of an extra pen-down, that it attempts
+  Point place = Point::Zero();  ///< to point at: on what was written, or where a missing stroke belongs beside it [em]
+  std::string reason = {};      ///< one sentence for people
 };
 
 /// Result of match_strokes().
 struct MatchResult {
   std::vector<DrawnStroke> drawn;     ///< one per pen-down, in the order of writing
-  std::vector<StrokeRemark> remarks;  ///< by pen-down, then missing strokes
+  std::vector<StrokeRemark> remarks;  ///< by pen-down, then missing strokes; one for each fault
   AffineMap fit;                      ///< maps the pen-downs onto the character
 
   /// Number of remarks of a kind.
@@ -66,13 +72,13 @@ struct MatchResult {
 };
 
 /// Matches pen-downs with strokes at the minimum total cost. The pen-downs are first laid on the character as a whole:
-/// an error of position or size, a slant or a turn of up to some 30 degrees is not a mistake. The cost of a pair is then
-/// the mean distance of points that are as far along, forwards or backwards, plus a penalty for the angle between them. A
-/// pen-down that resembles no stroke is extra; a stroke that no pen-down resembles is missing; a pen-down that resembles
-/// several consecutive strokes has joined them. An order other than the standard one is accepted only where it fits
-/// better by `tolerances.distinction` times the mean cost of this hand, or by that factor; a stroke runs forwards within
-/// the angle `tolerances.direction`. For the steps and the bounds, and how often they are right, see docs/practice.md.
-/// O(readings paths strokes).
+/// an error of position or size, a slant or a turn of up to some 30 degrees is not a mistake. The cost of a pair is
+/// then the mean distance of points that are as far along, forwards or backwards, plus a penalty for the angle between
+/// them. A pen-down that resembles no stroke is extra; a stroke that no pen-down resembles is missing; a pen-down that
+/// resembles several consecutive strokes has joined them. An order other than the standard one is accepted only where
+/// it fits better by `tolerances.distinction` times the mean cost of this hand, or by that factor; a stroke runs
+/// forwards within the angle `tolerances.direction`. For the steps and the bounds, and how often they are right, see
+/// docs/practice.md. O(readings paths strokes).
 ///
 /// `paths` are in the square of the character; writing from elsewhere is mapped there by fit_box.
 /// @throws ValueError when the character or a tolerance is invalid, there are more than 1000 paths, or one is empty or

@@ -1,0 +1,184 @@
+#include "stroke_remarks.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <Eigen/LU>
+
+#include "remark_words.hpp"
+#include "resemblance.hpp"
+#include "writing_order.hpp"
+
+namespace calligraphy {
+namespace {
+
+/// Pen-downs in a row that wrote strokes in a row, all out of turn.
+struct MovedStrokes {
+  int path, last_path;
+  int stroke, stroke_count;
+};
+
+class Remarks {
+ public:
+  Remarks(const Character& character, std::span<const PenPath> paths, std::span<const DrawnStroke> drawn,
+          const AffineMap& fit)
+      : strokes_(strokes(character)), paths_(paths), drawn_(drawn), fit_(fit), exchanges_(find_exchanges(drawn)) {
+    for (int path = 0; path < static_cast<int>(drawn.size()); ++path) {
+      if (at(path).stroke >= 0 && !at(path).continues) written_.push_back(path);
+    }
+  }
+
+  std::vector<StrokeRemark> run() {
+    find_moved();
+    for (int path = 0; path < static_cast<int>(drawn_.size()); ++path) tell(path);
+    std::vector<bool> is_written(strokes_.size(), false);
+    for (const int path : written_) {
+      std::fill_n(is_written.begin() + at(path).stroke, at(path).stroke_count, true);
+    }
+    for (int stroke = 0; stroke < static_cast<int>(strokes_.size()); ++stroke) {
+      if (is_written[static_cast<std::size_t>(stroke)]) continue;
+      add({.kind = StrokeRemarkKind::missing, .stroke = stroke, .stroke_count = 1, .place = place_of_stroke(stroke)});
+    }
+    return std::move(remarks_);
+  }
+
+ private:
+  const DrawnStroke& at(int path) const { return drawn_[static_cast<std::size_t>(path)]; }
+
+  void add(StrokeRemark remark) {
+    remark.reason = sentence(remark, drawn_, strokes_);
+    remarks_.push_back(std::move(remark));
+  }
+
+  void tell(int path) {
+    const DrawnStroke& drawn = at(path);
+    if (drawn.stroke < 0) {
+      if (!drawn.tap) tell_extra(path);  // a tap is a pen that bounced
+      return;
+    }
+    if (drawn.continues) return;
+    for (const Exchange& exchange : exchanges_) {
+      if (exchange.path == path) tell_exchange(exchange);
+    }
+    for (const MovedStrokes& moved : moved_) {
+      if (moved.path == path) tell_moved(moved);
+    }
+    const bool goes_on = path + 1 < static_cast<int>(drawn_.size()) && at(path + 1).continues;
+    const auto tell_of_stroke = [&](StrokeRemarkKind kind) {
+      add({.kind = kind,
+           .path = path,
+           .path_count = goes_on ? 2 : 1,
+           .stroke = drawn.stroke,
+           .stroke_count = drawn.stroke_count,
+           .place = place_of_path(path)});
+    };
+    if (goes_on) tell_of_stroke(StrokeRemarkKind::broken);
+    if (drawn.stroke_count > 1) tell_of_stroke(StrokeRemarkKind::joined);
+    if (drawn.direction == WritingDirection::backwards) tell_of_stroke(StrokeRemarkKind::direction);
+    if (drawn.direction == WritingDirection::neither) tell_of_stroke(StrokeRemarkKind::shape);
+  }
+
+  void tell_extra(int path) {
+    StrokeRemark remark{.kind = StrokeRemarkKind::extra,
+                        .path = path,
+                        .path_count = 1,
+                        .other_stroke = at(path).attempt,
+                        .place = place_of_path(path)};
+    for (const int other : written_) {
+      const int beyond = remark.other_stroke - at(other).stroke;
+      if (0 <= beyond && beyond < at(other).stroke_count) remark.other_path = other;
+    }
+    add(std::move(remark));
+  }
+
+  void tell_exchange(const Exchange& exchange) {
+    add({.kind = StrokeRemarkKind::order,
+         .path = exchange.path,
+         .path_count = 1,
+         .stroke = at(exchange.path).stroke,
+         .stroke_count = at(exchange.path).stroke_count,
+         .other_path = exchange.other_path,
+         .other_stroke = at(exchange.other_path).stroke,
+         .place = place_of_path(exchange.path)});
+  }
+
+  void tell_moved(const MovedStrokes& moved) {
+    const int due = due_at(moved.path);
+    add({.kind = StrokeRemarkKind::order,
+         .path = moved.path,
+         .path_count = moved.last_path - moved.path + 1,
+         .stroke = moved.stroke,
+         .stroke_count = moved.stroke_count,
+         .other_stroke = moved.stroke > due ? due : last_before(moved.path),
+         .place = place_of_path(moved.path)});
+  }
+
+  bool has_changed_places(int path) const {
+    return std::any_of(exchanges_.begin(), exchanges_.end(), [path](const Exchange& exchange) {
+      return path == exchange.path || path == exchange.other_path;
+    });
+  }
+
+  void find_moved() {
+    for (std::size_t i = 0; i < written_.size(); ++i) {
+      const int path = written_[i];
+      const DrawnStroke& drawn = at(path);
+      if (drawn.in_turn || has_changed_places(path)) continue;
+      MovedStrokes* const last = moved_.empty() ? nullptr : &moved_.back();
+      const bool goes_on =
+          last != nullptr && last->last_path == written_[i - 1] && drawn.stroke == last->stroke + last->stroke_count;
+      if (goes_on) {
+        last->last_path = path;
+        last->stroke_count += drawn.stroke_count;
+      } else {
+        moved_.push_back({path, path, drawn.stroke, drawn.stroke_count});
+      }
+    }
+  }
+
+  /// The first stroke that was still to be written when a pen-down began, of those that were written at all.
+  int due_at(int path) const {
+    int due = static_cast<int>(strokes_.size());
+    for (const int other : written_) {
+      if (other >= path) due = std::min(due, at(other).stroke);
+    }
+    return due;
+  }
+
+  /// The last stroke of those written before a pen-down.
+  int last_before(int path) const {
+    int last = 0;
+    for (const int other : written_) {
+      if (other < path) last = std::max(last, at(other).stroke + at(other).stroke_count - 1);
+    }
+    return last;
+  }
+
+  Point place_of_path(int path) const {
+    const PenPath& drawn = paths_[static_cast<std::size_t>(path)];
+    return points_along(drawn, path_length(drawn), 3)[1];
+  }
+
+  Point place_of_stroke(int stroke) const {
+    const std::vector<Point> line = middle_line(strokes_[static_cast<std::size_t>(stroke)], {Point::Zero(), 1.0});
+    return fit_.linear.inverse() * (points_along(line, path_length(line), 3)[1] - fit_.offset);
+  }
+
+  const std::vector<Stroke> strokes_;
+  const std::span<const PenPath> paths_;
+  const std::span<const DrawnStroke> drawn_;
+  const AffineMap& fit_;
+  const std::vector<Exchange> exchanges_;
+  std::vector<int> written_;  ///< pen-downs that wrote something, without the second parts of broken strokes
+  std::vector<MovedStrokes> moved_;
+  std::vector<StrokeRemark> remarks_;
+};
+
+}  // namespace
+
+std::vector<StrokeRemark> remarks_on(const Character& character, std::span<const PenPath> paths,
+                                     std::span<const DrawnStroke> drawn, const AffineMap& fit) {
+  return Remarks(character, paths, drawn, fit).run();
+}
+
+}  // namespace calligraphy
