@@ -461,14 +461,16 @@ def count(drawn, character):
     row["strokes_completed"] = sum(stroke["completed"] for stroke in strokes)
 
     firsts = list(dict.fromkeys(stroke for stroke in row["drawn"] if stroke >= 0))
-    row["order_mistakes"] = len(firsts) - longest_ascent(firsts)
+    out_of_turn = len(firsts) - longest_ascent(firsts)
+    swapped = sum(one != other for one, other in zip(firsts, sorted(firsts))) == 2
+    row["order_mistakes"] = 1 if swapped else out_of_turn
     row["direction_mistakes"] = sum(pen.backwards and not pen.extra for _, pen in downs)
     row["extra"] = sum(pen.extra for _, pen in downs)
     row["missing"] = len(lines) - len(written)
     row["broken"] = len([stroke for stroke in row["drawn"] if stroke >= 0]) - len(written)
 
     row["contour"] = sum(math.exp(-stroke["overall_error"] / (0.05 * em)) for stroke in written) / len(lines)
-    row["external_sequence"] = (len(written) - row["order_mistakes"]) / (len(lines) + row["extra"])
+    row["external_sequence"] = (len(written) - out_of_turn) / (len(lines) + row["extra"])
     row["internal_sequence"] = (len(written) - row["direction_mistakes"]) / len(lines)
     row["fidelity"] = (row["contour"] * row["external_sequence"] * row["internal_sequence"]) ** (1 / 3)
 
