@@ -61,16 +61,18 @@ double distance_of(const ReadingStep& step, const StrokeReading& reading, const 
   return mean_distance(step.paths > 1 ? costs.place(drawn[step.path].with_next) : costs.placed(step.path), wanted);
 }
 
-/// Of a pen-down that wrote nothing: the stroke that it resembles most.
-std::optional<std::size_t> attempted_stroke(const StrokeCosts& costs, std::size_t path) {
-  std::optional<std::size_t> nearest;
+/// What a pen-down that wrote nothing attempted: the stroke that it resembles most, along or against which it runs.
+void find_attempt(DrawnStroke& drawn, std::size_t path, const StrokeReading& reading, const StrokeOutlines& strokes,
+                  const StrokeTolerances& tolerances) {
   double least = left_over_cost;
-  for (std::size_t stroke = 0; stroke < costs.strokes() && !costs.is_tap(path); ++stroke) {
-    if (costs.single(path, stroke).cost > least) continue;
-    least = costs.single(path, stroke).cost;
-    nearest = stroke;
+  for (std::size_t stroke = 0; stroke < strokes.count() && !drawn.tap; ++stroke) {
+    const double cost = reading.costs->single(path, stroke).cost;
+    const WritingDirection direction = direction_of({path, 1, stroke, 1, cost}, reading, strokes, tolerances);
+    if (cost > least || direction == WritingDirection::neither) continue;
+    least = cost;
+    drawn.attempt = static_cast<int>(stroke);
+    drawn.direction = direction;
   }
-  return nearest;
 }
 
 void require_valid(const Character& character, std::span<const PenPath> paths) {
@@ -139,9 +141,8 @@ MatchResult match_strokes(const Character& character, std::span<const PenPath> p
         drawn.continues = path > step.path;
         drawn.direction = direction_of(step, reading, outlines, tolerances);
         drawn.distance = distance_of(step, reading, outlines, lines);
-      } else if (const auto stroke = attempted_stroke(*reading.costs, path)) {
-        drawn.attempt = static_cast<int>(*stroke);
-        drawn.direction = direction_of({path, 1, *stroke, 1, 0.0}, reading, outlines, tolerances);
+      } else {
+        find_attempt(drawn, path, reading, outlines, tolerances);
       }
     }
   }
