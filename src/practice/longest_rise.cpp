@@ -1,7 +1,6 @@
 #include "longest_rise.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace calligraphy {
 
@@ -18,11 +17,10 @@ std::vector<std::size_t> longest_rise(std::span<const std::size_t> numbers) {
     }
   }
   std::vector<std::size_t> places(lasts.size());
-  std::size_t wanted = lasts.size(), above = std::numeric_limits<std::size_t>::max();
+  std::size_t wanted = lasts.size();
   for (std::size_t i = numbers.size(); i-- > 0 && wanted > 0;) {
-    if (length[i] != wanted || numbers[i] >= above) continue;
-    places[--wanted] = i;
-    above = numbers[i];
+    // Of those before it that end a series one shorter, the last is the least.
+    if (length[i] == wanted) places[--wanted] = i;
   }
   return places;
 }
