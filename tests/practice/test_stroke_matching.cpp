@@ -474,11 +474,17 @@ TEST_CASE("an additional pen-down is extra, and a bounce is ignored", "[practice
     CHECK(match.remarks[0].stroke == -1);
     CHECK(match.remarks[0].reason == "pen-down 3 resembles none of the strokes");
   }
-  SECTION("a short line across a stroke") {
-    drawn.push_back(line({0.3, 0.55}, {0.3, 0.45}));
-    const MatchResult match = match_strokes(ten, drawn);
+  SECTION("a short line across a dot is no attempt at it") {
+    const Character eternal = character_of("永");
+    drawn = copy_of(eternal);
+    const Point middle = 0.5 * (drawn[0].front() + drawn[0].back()), half = 0.5 * (drawn[0].back() - drawn[0].front());
+    const Point across(-half.y(), half.x());
+    drawn.push_back(line(middle - across, middle + across));
+    const MatchResult match = match_strokes(eternal, drawn);
+    CAPTURE(told(match));
     REQUIRE(match.remarks.size() == 1);
-    CHECK(match.remarks[0].reason == "pen-down 3 resembles none of the strokes");
+    CHECK(match.remarks[0].kind == StrokeRemarkKind::extra);
+    CHECK(match.remarks[0].other_stroke != 0);
   }
   SECTION("a stroke written again") {
     drawn.push_back(drawn[0]);
