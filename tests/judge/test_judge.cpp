@@ -395,7 +395,7 @@ TEST_CASE("exact pens with faults and deviations are told exactly", "[judge]") {
                {"turned", 98.0},
                {"block", 99.0},
                {"swap,jitter-1", 98.0},
-               {"swap,displaced-5", 87.0},
+               {"swap,displaced-5", 89.0},
                {"reverse,displaced-5", 97.0},
                {"turned-short", 80.0}},
               300);
@@ -433,7 +433,7 @@ TEST_CASE("of people's pens that wrote a character right, what is told is right"
                {"join", 96.5},
                {"extra", 96.5},
                {"swap,jitter-1", 97.0},
-               {"swap,displaced-5", 87.0},
+               {"swap,displaced-5", 89.0},
                {"reverse,displaced-5", 96.0}},
               300);
   check_marks(pens, {{"as-they-are", 4.0}}, 300, StrokeTolerances::strict());
