@@ -9,20 +9,29 @@
 namespace calligraphy {
 namespace {
 
-constexpr double flat = 0.15;        // a side of a box below this is flat [em]
+constexpr double flat = 0.15;        // a side of a box below this is flat [em], or relative to the other one
 constexpr double max_stretch = 1.5;  // of one axis against the other
 
-Eigen::AlignedBox2d box_of(std::span<const PenPath> paths) {
-  Eigen::AlignedBox2d written, everything;
+Eigen::AlignedBox2d box_of_all(std::span<const PenPath> paths) {
+  Eigen::AlignedBox2d box;
   for (const PenPath& path : paths) {
-    const bool counts = path_length(path) >= tap_length;
-    for (const Point& point : path) {
-      everything.extend(point);
-      if (counts) written.extend(point);
-    }
+    for (const Point& point : path) box.extend(point);
   }
-  return written.isEmpty() ? everything : written;
+  return box;
 }
+
+/// Without taps.
+Eigen::AlignedBox2d box_of(std::span<const PenPath> paths) {
+  const double tap = tap_length * std::min(1.0, size_of(paths));
+  Eigen::AlignedBox2d written;
+  for (const PenPath& path : paths) {
+    if (path_length(path) < tap) continue;
+    for (const Point& point : path) written.extend(point);
+  }
+  return written.isEmpty() ? box_of_all(paths) : written;
+}
+
+double flat_below(const Eigen::AlignedBox2d& box) { return flat * std::min(1.0, box.sizes().maxCoeff()); }
 
 }  // namespace
 
@@ -30,6 +39,11 @@ double path_length(std::span<const Point> path) noexcept {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
   return length;
+}
+
+double size_of(std::span<const PenPath> paths) noexcept {
+  const Eigen::AlignedBox2d box = box_of_all(paths);
+  return box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
 }
 
 std::vector<PenPath> pen_paths(const PenTrace& trace) {
@@ -57,7 +71,9 @@ BoxMap fit_box(std::span<const PenPath> paths, const Character& character) {
   if (from.isEmpty()) return map;
   const Eigen::AlignedBox2d to = bounding_box({character, {Point::Zero(), 1.0}});
   const Point sides = from.sizes(), wanted = to.sizes();
-  const bool flat_x = std::min(sides.x(), wanted.x()) < flat, flat_y = std::min(sides.y(), wanted.y()) < flat;
+  const double flat_side = flat_below(from), flat_wanted = flat_below(to);
+  const bool flat_x = sides.x() < flat_side || wanted.x() < flat_wanted;
+  const bool flat_y = sides.y() < flat_side || wanted.y() < flat_wanted;
   if (!flat_x) map.scale.x() = wanted.x() / sides.x();
   if (!flat_y) map.scale.y() = wanted.y() / sides.y();
   if (flat_x) map.scale.x() = map.scale.y();

@@ -7,6 +7,7 @@
 
 #include <calligraphy/base/error.hpp>
 
+#include "base/require.hpp"
 #include "stroke_reading.hpp"
 #include "stroke_remarks.hpp"
 #include "writing_order.hpp"
@@ -15,6 +16,7 @@ namespace calligraphy {
 namespace {
 
 constexpr std::size_t max_paths = 1000;
+constexpr double farthest = 1e9;  // [em]
 
 /// Of the pen-downs that wrote nothing and follow each other up to this one, or from it on, one that runs forwards
 /// along a stroke.
@@ -84,11 +86,15 @@ void require_valid(const Character& character, std::span<const PenPath> paths) {
     throw ValueError(std::to_string(paths.size()) + " pen-downs: expected at most " + std::to_string(max_paths));
   }
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    const bool finite =
-        std::all_of(paths[i].begin(), paths[i].end(), [](const Point& point) { return point.allFinite(); });
-    if (!paths[i].empty() && finite) continue;
-    throw ValueError("pen-down " + std::to_string(i + 1) +
-                     (finite ? " has no point" : " has a point that is not finite"));
+    const std::string pen_down = "pen-down " + std::to_string(i + 1);
+    if (paths[i].empty()) throw ValueError(pen_down + " has no point");
+    for (const Point& point : paths[i]) {
+      if (!point.allFinite()) throw ValueError(pen_down + " has a point that is not finite");
+      if (point.cwiseAbs().maxCoeff() > farthest) {
+        throw ValueError(pen_down + " has a point " + number_text(point.cwiseAbs().maxCoeff()) +
+                         " em away, expected at most " + number_text(farthest));
+      }
+    }
   }
 }
 
@@ -123,7 +129,7 @@ MatchResult match_strokes(const Character& character, std::span<const PenPath> p
   require_valid(character, paths);
   validate(tolerances);
   std::vector<PenPath> steady;
-  for (const PenPath& path : paths) steady.push_back(without_jitter(path, pen_spacing));
+  for (const PenPath& path : paths) steady.push_back(without_jitter(path, pen_spacing * std::min(1.0, size_of(paths))));
   const StrokeOutlines outlines(character);
   StrokeReading reading = read_strokes(character, outlines, steady, tolerances);
   prefer_corrections(reading);
@@ -146,7 +152,7 @@ MatchResult match_strokes(const Character& character, std::span<const PenPath> p
       }
     }
   }
-  find_in_turn(match.drawn);
+  set_in_turn(match.drawn);
   match.remarks = remarks_on(character, paths, match.drawn, match.fit);
   return match;
 }

@@ -12,7 +12,7 @@
 namespace calligraphy {
 
 /// Strokes that one pen-down may have written, without lifting the pen.
-inline constexpr std::size_t max_joined = 4;
+inline constexpr std::size_t max_joined = 6;
 
 /// What a pen draws that writes some strokes one after the other, with straight ways between them.
 struct StrokeRun {

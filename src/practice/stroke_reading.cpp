@@ -79,17 +79,28 @@ class Reader {
     return {box.scale.asDiagonal() * turn, box.offset};
   }
 
-  /// A pen-down in the place of a stroke that nothing else wrote is that stroke, misplaced or of another shape.
+  /// A pen-down in the place of a stroke that nothing else wrote is that stroke, misplaced or of another shape; so is
+  /// one that resembles it, wherever it comes in the order.
   static void pair_left_overs(StrokeReading& reading) {
-    for (std::size_t i = 0; i + 1 < reading.steps.size(); ++i) {
-      ReadingStep &one = reading.steps[i], &other = reading.steps[i + 1];
-      if (one.is_written() || other.is_written() || one.paths == other.paths) continue;
-      const std::size_t path = one.paths > 0 ? one.path : other.path,
-                        stroke = one.paths > 0 ? other.stroke : one.stroke;
-      const double cost = reading.costs->single(path, stroke).cost;
-      if (reading.costs->is_tap(path) || cost > max_substitute) continue;
-      one = {path, 1, stroke, 1, cost};
-      reading.steps.erase(reading.steps.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    const StrokeCosts& costs = *reading.costs;
+    for (std::size_t i = 0; i < reading.steps.size(); ++i) {
+      const ReadingStep& extra = reading.steps[i];
+      if (extra.paths == 0 || extra.strokes > 0 || costs.is_tap(extra.path)) continue;
+      std::size_t found = i;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < reading.steps.size(); ++k) {
+        const ReadingStep& missing = reading.steps[k];
+        if (missing.paths > 0) continue;
+        const double cost = costs.single(extra.path, missing.stroke).cost;
+        const bool is_beside = k + 1 == i || k == i + 1;
+        if (cost > (is_beside ? max_substitute : left_over_cost) || cost >= least) continue;
+        found = k;
+        least = cost;
+      }
+      if (found == i) continue;
+      reading.steps[found] = {extra.path, 1, reading.steps[found].stroke, 1, least};
+      reading.steps.erase(reading.steps.begin() + static_cast<std::ptrdiff_t>(i));
+      --i;
     }
   }
 

@@ -12,24 +12,17 @@
 namespace calligraphy {
 namespace {
 
-/// Pen-downs in a row that wrote strokes in a row, all out of turn.
-struct MovedStrokes {
-  int path, last_path;
-  int stroke, stroke_count;
-};
-
 class Remarks {
  public:
   Remarks(const Character& character, std::span<const PenPath> paths, std::span<const DrawnStroke> drawn,
           const AffineMap& fit)
-      : strokes_(strokes(character)), paths_(paths), drawn_(drawn), fit_(fit), exchanges_(find_exchanges(drawn)) {
+      : strokes_(strokes(character)), paths_(paths), drawn_(drawn), fit_(fit), order_(find_order(drawn)) {
     for (int path = 0; path < static_cast<int>(drawn.size()); ++path) {
       if (at(path).stroke >= 0 && !at(path).continues) written_.push_back(path);
     }
   }
 
   std::vector<StrokeRemark> run() {
-    find_moved();
     for (int path = 0; path < static_cast<int>(drawn_.size()); ++path) tell(path);
     std::vector<bool> is_written(strokes_.size(), false);
     for (const int path : written_) {
@@ -57,10 +50,10 @@ class Remarks {
       return;
     }
     if (drawn.continues) return;
-    for (const Exchange& exchange : exchanges_) {
+    for (const Exchange& exchange : order_.exchanges) {
       if (exchange.path == path) tell_exchange(exchange);
     }
-    for (const MovedStrokes& moved : moved_) {
+    for (const MovedStrokes& moved : order_.moved) {
       if (moved.path == path) tell_moved(moved);
     }
     const bool goes_on = path + 1 < static_cast<int>(drawn_.size()) && at(path + 1).continues;
@@ -113,34 +106,12 @@ class Remarks {
          .place = place_of_path(moved.path)});
   }
 
-  bool has_changed_places(int path) const {
-    return std::any_of(exchanges_.begin(), exchanges_.end(), [path](const Exchange& exchange) {
-      return path == exchange.path || path == exchange.other_path;
-    });
-  }
-
-  void find_moved() {
-    for (std::size_t i = 0; i < written_.size(); ++i) {
-      const int path = written_[i];
-      const DrawnStroke& drawn = at(path);
-      if (drawn.in_turn || has_changed_places(path)) continue;
-      MovedStrokes* const last = moved_.empty() ? nullptr : &moved_.back();
-      const bool goes_on =
-          last != nullptr && last->last_path == written_[i - 1] && drawn.stroke == last->stroke + last->stroke_count;
-      if (goes_on) {
-        last->last_path = path;
-        last->stroke_count += drawn.stroke_count;
-      } else {
-        moved_.push_back({path, path, drawn.stroke, drawn.stroke_count});
-      }
-    }
-  }
-
-  /// The first stroke that was still to be written when a pen-down began, of those that were written at all.
+  /// The first stroke that was still to be written when a pen-down began, of those that were written at all; strokes
+  /// that changed places are told by themselves.
   int due_at(int path) const {
     int due = static_cast<int>(strokes_.size());
     for (const int other : written_) {
-      if (other >= path) due = std::min(due, at(other).stroke);
+      if (other >= path && !order_.has_changed_places(other)) due = std::min(due, at(other).stroke);
     }
     return due;
   }
@@ -149,7 +120,8 @@ class Remarks {
   int last_before(int path) const {
     int last = 0;
     for (const int other : written_) {
-      if (other < path) last = std::max(last, at(other).stroke + at(other).stroke_count - 1);
+      if (other >= path || order_.has_changed_places(other)) continue;
+      last = std::max(last, at(other).stroke + at(other).stroke_count - 1);
     }
     return last;
   }
@@ -168,9 +140,8 @@ class Remarks {
   const std::span<const PenPath> paths_;
   const std::span<const DrawnStroke> drawn_;
   const AffineMap& fit_;
-  const std::vector<Exchange> exchanges_;
+  const WritingOrder order_;
   std::vector<int> written_;  ///< pen-downs that wrote something, without the second parts of broken strokes
-  std::vector<MovedStrokes> moved_;
   std::vector<StrokeRemark> remarks_;
 };
 

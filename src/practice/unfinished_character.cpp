@@ -7,6 +7,7 @@
 
 #include "resemblance.hpp"
 #include "stroke_remarks.hpp"
+#include "writing_order.hpp"
 
 namespace calligraphy {
 namespace {
@@ -77,6 +78,7 @@ double cost(const MatchResult& result, std::span<const PenPath> paths, const std
 /// Takes out what was only supposed, all but the paths that were drawn: their strokes are missing.
 void take_back(MatchResult& result, std::span<const PenPath> paths, const Character& character) {
   result.drawn.resize(paths.size());
+  set_in_turn(result.drawn);
   result.remarks = remarks_on(character, paths, result.drawn, result.fit);
 }
 

@@ -8,53 +8,124 @@
 namespace calligraphy {
 namespace {
 
-/// Pen-downs that wrote something, without the second parts of broken strokes.
-std::vector<int> written_paths(std::span<const DrawnStroke> drawn) {
-  std::vector<int> paths;
-  for (std::size_t path = 0; path < drawn.size(); ++path) {
-    if (drawn[path].stroke >= 0 && !drawn[path].continues) paths.push_back(static_cast<int>(path));
+class OrderFinder {
+ public:
+  explicit OrderFinder(std::span<const DrawnStroke> drawn) : drawn_(drawn) {
+    for (std::size_t path = 0; path < drawn.size(); ++path) {
+      if (drawn[path].stroke < 0 || drawn[path].continues) continue;
+      paths_.push_back(static_cast<int>(path));
+      strokes_.push_back(static_cast<std::size_t>(drawn[path].stroke));
+    }
   }
-  return paths;
-}
+
+  WritingOrder run() const {
+    WritingOrder shortest = order_with(separate_exchanges());
+    WritingOrder other = order_with(all_exchanges());
+    const bool is_shorter =
+        other.exchanges.size() + other.moved.size() < shortest.exchanges.size() + shortest.moved.size();
+    return is_shorter && out_of_turn(other) <= out_of_turn(shortest) ? other : shortest;
+  }
+
+ private:
+  /// Places in the order of writing.
+  struct Places {
+    std::size_t first, last;
+  };
+
+  std::size_t out_of_turn(const WritingOrder& order) const {
+    return static_cast<std::size_t>(std::count_if(paths_.begin(), paths_.end(), [&](int path) {
+      return order.has_changed_places(path) || order.has_moved(path);
+    }));
+  }
+
+  /// Where all that was written between two strokes belongs between them, and the rest before or behind.
+  std::vector<Places> separate_exchanges() const {
+    std::vector<Places> exchanges;
+    for (std::size_t first = 0; first + 2 < strokes_.size(); ++first) {
+      for (std::size_t last = first + 2; last < strokes_.size(); ++last) {
+        const std::size_t early = strokes_[first], late = strokes_[last];
+        bool is_exchange = true;
+        for (std::size_t place = 0; place < strokes_.size() && is_exchange; ++place) {
+          const std::size_t stroke = strokes_[place];
+          if (place < first) is_exchange = stroke < late;
+          if (first < place && place < last) is_exchange = late < stroke && stroke < early;
+          if (place > last) is_exchange = stroke > early;
+        }
+        if (is_exchange) exchanges.push_back({first, last});
+      }
+    }
+    return exchanges;
+  }
+
+  /// Each of which stands where the other belongs.
+  std::vector<Places> all_exchanges() const {
+    std::vector<std::size_t> sorted = strokes_;
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<Places> exchanges;
+    for (std::size_t first = 0; first < strokes_.size(); ++first) {
+      for (std::size_t last = first + 2; last < strokes_.size(); ++last) {
+        if (strokes_[first] == sorted[last] && strokes_[last] == sorted[first]) exchanges.push_back({first, last});
+      }
+    }
+    return exchanges;
+  }
+
+  WritingOrder order_with(const std::vector<Places>& exchanges) const {
+    WritingOrder order;
+    std::vector<bool> is_settled(strokes_.size(), false);
+    for (const Places& exchange : exchanges) {
+      order.exchanges.push_back({paths_[exchange.first], paths_[exchange.last]});
+      is_settled[exchange.first] = is_settled[exchange.last] = true;
+    }
+    std::vector<std::size_t> places, strokes;
+    for (std::size_t place = 0; place < strokes_.size(); ++place) {
+      if (is_settled[place]) continue;
+      places.push_back(place);
+      strokes.push_back(strokes_[place]);
+    }
+    for (const std::size_t i : longest_rise(strokes)) is_settled[places[i]] = true;
+    for (std::size_t place = 0; place < strokes_.size(); ++place) {
+      if (is_settled[place]) continue;
+      const int path = paths_[place], stroke = static_cast<int>(strokes_[place]);
+      const int count = drawn_[static_cast<std::size_t>(path)].stroke_count;
+      const bool goes_on = !order.moved.empty() && order.moved.back().last_path == paths_[place - 1] &&
+                           stroke == order.moved.back().stroke + order.moved.back().stroke_count;
+      if (goes_on) {
+        order.moved.back().last_path = path;
+        order.moved.back().stroke_count += count;
+      } else {
+        order.moved.push_back({path, path, stroke, count});
+      }
+    }
+    return order;
+  }
+
+  std::span<const DrawnStroke> drawn_;
+  std::vector<int> paths_;            ///< that wrote something, without the second parts of broken strokes
+  std::vector<std::size_t> strokes_;  ///< that they wrote
+};
 
 }  // namespace
 
-std::vector<Exchange> find_exchanges(std::span<const DrawnStroke> drawn) {
-  const std::vector<int> paths = written_paths(drawn);
-  const auto stroke = [&](std::size_t place) { return drawn[static_cast<std::size_t>(paths[place])].stroke; };
-  std::vector<Exchange> exchanges;
-  for (std::size_t first = 0; first + 2 < paths.size(); ++first) {
-    for (std::size_t last = first + 2; last < paths.size(); ++last) {
-      bool is_exchange = true;
-      for (std::size_t place = 0; place < paths.size() && is_exchange; ++place) {
-        if (place < first) is_exchange = stroke(place) < stroke(last);
-        if (first < place && place < last) {
-          is_exchange = stroke(last) < stroke(place) && stroke(place) < stroke(first);
-        }
-        if (place > last) is_exchange = stroke(place) > stroke(first);
-      }
-      if (is_exchange) exchanges.push_back({paths[first], paths[last]});
-    }
-  }
-  return exchanges;
+bool WritingOrder::has_changed_places(int path) const {
+  return std::any_of(exchanges.begin(), exchanges.end(),
+                     [path](const Exchange& exchange) { return path == exchange.path || path == exchange.other_path; });
 }
 
-void find_in_turn(std::span<DrawnStroke> drawn) {
-  std::vector<bool> has_changed(drawn.size(), false);
-  for (const Exchange& exchange : find_exchanges(drawn)) {
-    has_changed[static_cast<std::size_t>(exchange.path)] = true;
-    has_changed[static_cast<std::size_t>(exchange.other_path)] = true;
+bool WritingOrder::has_moved(int path) const {
+  return std::any_of(moved.begin(), moved.end(),
+                     [path](const MovedStrokes& each) { return each.path <= path && path <= each.last_path; });
+}
+
+WritingOrder find_order(std::span<const DrawnStroke> drawn) { return OrderFinder(drawn).run(); }
+
+void set_in_turn(std::span<DrawnStroke> drawn) {
+  const WritingOrder order = find_order(drawn);
+  for (std::size_t path = 0; path < drawn.size(); ++path) {
+    const auto index = static_cast<int>(path);
+    const bool counts = drawn[path].stroke >= 0 && !drawn[path].continues;
+    drawn[path].in_turn = !counts || (!order.has_changed_places(index) && !order.has_moved(index));
   }
-  std::vector<DrawnStroke*> others;
-  std::vector<std::size_t> strokes;
-  for (const int path : written_paths(drawn)) {
-    DrawnStroke& each = drawn[static_cast<std::size_t>(path)];
-    each.in_turn = false;
-    if (has_changed[static_cast<std::size_t>(path)]) continue;
-    others.push_back(&each);
-    strokes.push_back(static_cast<std::size_t>(each.stroke));
-  }
-  for (const std::size_t place : longest_rise(strokes)) others[place]->in_turn = true;
 }
 
 }  // namespace calligraphy

@@ -13,12 +13,26 @@ struct Exchange {
   int path, other_path;
 };
 
-/// All pairs that changed places where that is all that concerns the order: what was written between them belongs
-/// there.
-std::vector<Exchange> find_exchanges(std::span<const DrawnStroke> drawn);
+/// Pen-downs in a row that wrote strokes in a row, all out of turn.
+struct MovedStrokes {
+  int path, last_path;
+  int stroke, stroke_count;
+};
 
-/// Sets `in_turn`. Out of turn are strokes that changed places; of the others the longest series of pen-downs whose
-/// strokes rise is in turn, and of several as long the one drawn last.
-void find_in_turn(std::span<DrawnStroke> drawn);
+/// What is out of order. All other pen-downs that wrote something are in turn.
+struct WritingOrder {
+  std::vector<Exchange> exchanges;
+  std::vector<MovedStrokes> moved;
+
+  bool has_changed_places(int path) const;
+  bool has_moved(int path) const;
+};
+
+/// Strokes that changed places, and of the others those that are not in the longest series of pen-downs whose strokes
+/// rise; of several such series, the one drawn last. As few pen-downs as possible are out of turn.
+WritingOrder find_order(std::span<const DrawnStroke> drawn);
+
+/// Sets `in_turn` of each by find_order().
+void set_in_turn(std::span<DrawnStroke> drawn);
 
 }  // namespace calligraphy

@@ -631,7 +631,7 @@ typedef struct calligraphy_remark {
   uint32_t size;         ///< sizeof(calligraphy_remark)
   int32_t kind;          ///< a calligraphy_remark_kind
   int32_t path;          ///< the pen-down, or the first of several; -1: none
-  int32_t path_count;    ///< pen-downs in a row
+  int32_t path_count;    ///< pen-downs from there to the last of them
   int32_t stroke;        ///< the stroke of the character, or the first of several; -1: none
   int32_t stroke_count;  ///< strokes in a row
   int32_t other_path;    ///< the pen-down whose stroke changed places with this one, or that wrote what this attempts

@@ -18,6 +18,9 @@ inline constexpr double tap_length = 0.02;
 /// Length of a polyline, in the unit of its points; 0 for fewer than two.
 double path_length(std::span<const Point> path) noexcept;
 
+/// The longer side of the box about the pen-downs, in the unit of their points; 0 without any.
+double size_of(std::span<const PenPath> paths) noexcept;
+
 /// The pen-downs of a trace, in the coordinates of the square that the person wrote in.
 std::vector<PenPath> pen_paths(const PenTrace& trace);
 
@@ -46,8 +49,9 @@ struct AffineMap {
 };
 
 /// Maps the bounding box of the writing onto that of the character, each axis separately: people fill a square
-/// differently. If a side of either box is below 15 % of the em, as the height of a heng, its axis is scaled like the
-/// other one. The two scales differ by a factor of at most 1.5. Taps do not count, unless there is nothing else.
+/// differently. If a side of either box is below 15 % of the em, or of its other side where this is shorter than the
+/// em, as the height of a heng, its axis is scaled like the other one. The two scales differ by a factor of at
+/// most 1.5. Taps do not count, unless there is nothing else.
 BoxMap fit_box(std::span<const PenPath> paths, const Character& character);
 
 }  // namespace calligraphy

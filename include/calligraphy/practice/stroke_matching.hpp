@@ -52,7 +52,7 @@ const char* to_string(StrokeRemarkKind kind) noexcept;
 struct StrokeRemark {
   StrokeRemarkKind kind = StrokeRemarkKind::order;  ///< what there is to remark
   int path = -1;                                    ///< the pen-down, or the first of several, from 0; -1: none
-  int path_count = 0;                               ///< pen-downs in a row
+  int path_count = 0;                               ///< pen-downs from there to the last of them
   int stroke = -1;        ///< the stroke of the character, or the first of several, from 0; -1: none
   int stroke_count = 0;   ///< strokes in a row
   int other_path = -1;    ///< the pen-down whose stroke changed places with this one, or that wrote what this attempts
@@ -81,8 +81,8 @@ struct MatchResult {
 /// docs/practice.md. O(readings paths strokes).
 ///
 /// `paths` are in the square of the character; writing from elsewhere is mapped there by fit_box.
-/// @throws ValueError when the character or a tolerance is invalid, there are more than 1000 paths, or one is empty or
-/// not finite
+/// @throws ValueError when the character or a tolerance is invalid, there are more than 1000 paths, or one is empty,
+/// not finite or more than 1e9 em away
 MatchResult match_strokes(const Character& character, std::span<const PenPath> paths,
                           const StrokeTolerances& tolerances = {});
 
