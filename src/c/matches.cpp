@@ -54,6 +54,7 @@ calligraphy_status calligraphy_match_drawn(const calligraphy_match* match, int32
                   .tap = found.tap,
                   .direction = static_cast<std::int32_t>(found.direction),
                   .attempt = found.attempt,
+                  .length = found.length,
                   .distance = found.distance});
   });
 }

@@ -280,7 +280,7 @@ std::string replay_picture(const Character& character, std::span<const PenPath> 
   const Eigen::AlignedBox2d box = box_of(character, laid, match, guided);
   const svg::View left = view_of(box, sheet_margin), right = view_of(box, 2.0 * sheet_margin + square_side);
   const Character inked = with_typical_ink(character);
-  draw_square(root, inked, style, sheet_margin, "as written", left);
+  draw_square(root, inked, style, sheet_margin, "as written, laid on the character", left);
   draw_written(root, character, laid, match, left);
   draw_square(root, inked, style, 2.0 * sheet_margin + square_side, "device, under guidance", right);
   draw_guided(root, guided, right);

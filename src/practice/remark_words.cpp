@@ -1,6 +1,9 @@
 #include "remark_words.hpp"
 
 #include <cstddef>
+#include <string_view>
+
+#include "stroke_reading.hpp"
 
 namespace calligraphy {
 namespace {
@@ -11,19 +14,20 @@ class Words {
  public:
   explicit Words(std::span<const Stroke> strokes) : strokes_(strokes) {}
 
-  std::string stroke(int index) const {
-    const std::string_view pinyin = strokes_[static_cast<std::size_t>(index)].type->pinyin;
-    return "stroke " + std::to_string(index + 1) + " (" + std::string(pinyin) + ")";
-  }
+  std::string stroke(int index) const { return "stroke " + numbered(index); }
 
   std::string strokes(const StrokeRemark& remark) const {
     if (remark.stroke_count == 1) return stroke(remark.stroke);
-    return stroke(remark.stroke) + " to " + stroke(remark.stroke + remark.stroke_count - 1);
+    const std::string between = remark.stroke_count == 2 ? " and " : " to ";
+    return "strokes " + numbered(remark.stroke) + between + numbered(remark.stroke + remark.stroke_count - 1);
   }
 
   std::string order(const StrokeRemark& remark) const {
+    if (remark.other_stroke < 0) return strokes(remark) + " were written from the last to the first";
     const std::string other = stroke(remark.other_stroke);
-    if (remark.other_path >= 0) return strokes(remark) + " and " + other + " changed places";
+    if (remark.other_path >= 0) {
+      return "strokes " + numbered(remark.stroke) + " and " + numbered(remark.other_stroke) + " changed places";
+    }
     const std::string were = remark.stroke_count > 1 ? " were written " : " was written ";
     if (remark.stroke > remark.other_stroke) return strokes(remark) + were + "where " + other + " was due";
     return strokes(remark) + were + "only after " + other;
@@ -38,6 +42,11 @@ class Words {
   }
 
  private:
+  std::string numbered(int index) const {
+    const std::string_view pinyin = strokes_[static_cast<std::size_t>(index)].type->pinyin;
+    return std::to_string(index + 1) + " (" + std::string(pinyin) + ")";
+  }
+
   std::span<const Stroke> strokes_;
 };
 
@@ -51,6 +60,9 @@ std::string sentence(const StrokeRemark& remark, std::span<const DrawnStroke> dr
     case StrokeRemarkKind::direction:
       return words.strokes(remark) + (remark.stroke_count > 1 ? " were" : " was") + " written backwards";
     case StrokeRemarkKind::shape:
+      if (drawn[static_cast<std::size_t>(remark.path)].length < least_share) {
+        return "only a part of " + words.stroke(remark.stroke) + " was written";
+      }
       return pen_down(remark.path) + " runs neither along " + words.stroke(remark.stroke) +
              " nor against it: it was drawn as another shape";
     case StrokeRemarkKind::joined:

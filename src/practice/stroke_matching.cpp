@@ -146,6 +146,7 @@ MatchResult match_strokes(const Character& character, std::span<const PenPath> p
         drawn.stroke_count = static_cast<int>(step.strokes);
         drawn.continues = path > step.path;
         drawn.direction = direction_of(step, reading, outlines, tolerances);
+        drawn.length = length_share(step, reading, outlines);
         drawn.distance = distance_of(step, reading, outlines, lines);
       } else {
         find_attempt(drawn, path, reading, outlines, tolerances);

@@ -358,9 +358,19 @@ double StrokeReading::mean_cost() const {
   return most > 0 ? cost / static_cast<double>(most) : 0.0;
 }
 
+double length_share(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
+  double length = reading.costs->length(step.path);
+  if (step.paths > 1) length += reading.costs->length(step.path + 1);
+  const double whole = strokes.run(step.stroke, step.strokes).way;
+  return whole > 0.0 ? length / whole : 1.0;
+}
+
 WritingDirection direction_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes,
                               const StrokeTolerances& tolerances) {
   if (reading.costs->is_tap(step.path)) return WritingDirection::unknown;
+  const double share = length_share(step, reading, strokes);
+  const double left_out = (1.0 - share) * strokes.run(step.stroke, step.strokes).way;
+  if (share < least_share && left_out > sure_length) return WritingDirection::neither;
   const PairCost& pair = reading.pair(step);
   const double length = strokes.run(step.stroke, step.strokes).length;
   const auto runs_along = [&](double accord, double trusted_length, double angle) {

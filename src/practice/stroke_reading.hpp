@@ -45,6 +45,11 @@ struct StrokeReading {
 StrokeReading read_strokes(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths,
                            const StrokeTolerances& tolerances);
 
+/// Length of the pen-downs of a step over that of the strokes that it takes them for, and below which only a part of a
+/// stroke was written, if what is missing is long enough to be sure.
+double length_share(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes);
+inline constexpr double least_share = 0.35, sure_length = 0.2;  // [1], [em]
+
 /// Direction in which what a step takes was written, as far as `tolerances.direction` and the length of the stroke
 /// allow.
 WritingDirection direction_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes,

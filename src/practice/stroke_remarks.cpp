@@ -99,10 +99,10 @@ class Remarks {
     const int due = due_at(moved.path);
     add({.kind = StrokeRemarkKind::order,
          .path = moved.path,
-         .path_count = moved.last_path - moved.path + 1,
+         .path_count = (order_.is_reversed ? written_.back() : moved.last_path) - moved.path + 1,
          .stroke = moved.stroke,
          .stroke_count = moved.stroke_count,
-         .other_stroke = moved.stroke > due ? due : last_before(moved.path),
+         .other_stroke = order_.is_reversed ? -1 : (moved.stroke > due ? due : last_before(moved.path)),
          .place = place_of_path(moved.path)});
   }
 

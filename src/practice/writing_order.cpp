@@ -19,6 +19,7 @@ class OrderFinder {
   }
 
   WritingOrder run() const {
+    if (strokes_.size() > 2 && std::is_sorted(strokes_.rbegin(), strokes_.rend())) return reversed_order();
     WritingOrder shortest = order_with(separate_exchanges());
     WritingOrder other = order_with(all_exchanges());
     const bool is_shorter =
@@ -31,6 +32,12 @@ class OrderFinder {
   struct Places {
     std::size_t first, last;
   };
+
+  WritingOrder reversed_order() const {
+    const int first = static_cast<int>(strokes_.back()), last = static_cast<int>(strokes_.front());
+    const int count = last - first + drawn_[static_cast<std::size_t>(paths_.front())].stroke_count;
+    return {{}, {{paths_.front(), paths_[paths_.size() - 2], first, count}}, true};
+  }
 
   std::size_t out_of_turn(const WritingOrder& order) const {
     return static_cast<std::size_t>(std::count_if(paths_.begin(), paths_.end(), [&](int path) {

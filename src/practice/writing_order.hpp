@@ -23,6 +23,7 @@ struct MovedStrokes {
 struct WritingOrder {
   std::vector<Exchange> exchanges;
   std::vector<MovedStrokes> moved;
+  bool is_reversed = false;  ///< from the last to the first of three strokes or more: all but the last drawn have moved
 
   bool has_changed_places(int path) const;
   bool has_moved(int path) const;

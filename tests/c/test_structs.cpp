@@ -389,6 +389,7 @@ TEST_CASE("pen-downs are matched as in C++, with remarks for people") {
     CHECK((drawn.tap != 0) == there.tap);
     CHECK(drawn.direction == static_cast<int>(there.direction));
     CHECK(drawn.attempt == there.attempt);
+    CHECK(drawn.length == Approx(there.length));
     if (std::isfinite(there.distance)) CHECK(drawn.distance == Approx(there.distance).margin(1e-12));
     taps += there.tap;
     continuations += there.continues;
@@ -436,7 +437,7 @@ TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its 
   CHECK(sizeof(calligraphy_renderer_options) == 360);
   CHECK(sizeof(calligraphy_tick) == 360);
   CHECK(sizeof(calligraphy_servo_state) == 64);
-  CHECK(sizeof(calligraphy_drawn_stroke) == 40);
+  CHECK(sizeof(calligraphy_drawn_stroke) == 48);
   CHECK(sizeof(calligraphy_remark) == 48);
   CHECK(sizeof(calligraphy_character_score) == 208);
   CHECK(sizeof(calligraphy_stroke_score) == 56);

@@ -215,8 +215,9 @@ TEST_CASE("three parallel lines are identified by their positions", "[practice]"
   SECTION("from the bottom up") {
     const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[2], lines[1], lines[0]});
     REQUIRE(match.remarks.size() == 1);
-    CHECK(match.remarks[0].reason == "stroke 3 (héng) and stroke 1 (héng) changed places");
-    CHECK(match.drawn[1].in_turn);
+    CHECK(match.remarks[0].reason == "strokes 1 (héng) to 3 (héng) were written from the last to the first");
+    CHECK(match.remarks[0].path_count == 3);
+    CHECK(match.remarks[0].stroke_count == 3);
   }
   SECTION("one of them, in its place") {
     for (int stroke = 0; stroke < 3; ++stroke) {
@@ -285,6 +286,62 @@ TEST_CASE("a block of strokes that was moved, and two strokes that changed place
       CHECK(exchanged.other_path == second);
       CHECK(exchanged.other_stroke == first);
       CHECK(exchanged.reason.find("changed places") != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("several swaps are told as swaps", "[practice]") {
+  const Character character = character_of("航");
+  const std::vector<PenPath> strokes = copy_of(character);
+  const std::vector<std::vector<std::size_t>> orders = {{8, 1, 6, 3, 4, 5, 2, 7, 0, 9},   // one within the other
+                                                        {5, 1, 8, 3, 4, 0, 6, 7, 2, 9},   // crossing
+                                                        {3, 1, 2, 0, 4, 5, 9, 7, 8, 6}};  // one after the other
+  for (const std::vector<std::size_t>& order : orders) {
+    std::vector<PenPath> drawn;
+    for (const std::size_t stroke : order) drawn.push_back(strokes[stroke]);
+    const MatchResult match = match_strokes(character, drawn);
+    CAPTURE(order, told(match));
+    REQUIRE(match.remarks.size() == 2);
+    for (const StrokeRemark& remark : match.remarks) {
+      CHECK(remark.kind == StrokeRemarkKind::order);
+      CHECK(remark.stroke == static_cast<int>(order[static_cast<std::size_t>(remark.path)]));
+      CHECK(remark.other_stroke == remark.path);
+      CHECK(remark.other_path == remark.stroke);
+    }
+  }
+}
+
+TEST_CASE("of a stroke that was only begun it is told that only a part was written", "[practice]") {
+  for (const char* text : {"十", "三", "木", "永"}) {
+    const Character character = character_of(text);
+    const std::vector<PenPath> strokes = copy_of(character);
+    for (std::size_t stroke = 0; stroke < strokes.size(); ++stroke) {
+      if (path_length(strokes[stroke]) < 0.35) continue;
+      for (const double share : {0.1, 0.2, 0.3}) {
+        std::vector<PenPath> drawn = strokes;
+        const double length = share * path_length(strokes[stroke]);
+        drawn[stroke] = points_along(strokes[stroke], length, 12);
+        const MatchResult match = match_strokes(character, drawn);
+        CAPTURE(text, stroke, share, told(match));
+        REQUIRE(match.remarks.size() == 1);
+        CHECK(match.remarks[0].stroke == static_cast<int>(stroke));
+        CHECK(match.remarks[0].reason.find("only a part of stroke") == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("small writing is judged like large", "[practice]") {
+  for (const char* text : {"永", "国", "必"}) {
+    const Character character = character_of(text);
+    for (const double scale : {0.2, 0.1, 0.05}) {
+      std::vector<PenPath> drawn = copy_of(character);
+      for (PenPath& path : drawn) {
+        for (Point& point : path) point = Point(0.8, 0.02) + scale * point;
+      }
+      const MatchResult match = match_strokes(character, drawn);
+      CAPTURE(text, scale, told(match));
+      CHECK(match.remarks.empty());
     }
   }
 }
@@ -425,6 +482,18 @@ TEST_CASE("a pen-down in the place of a stroke that nothing else wrote is that s
     CAPTURE(told(match));
     CHECK(match.drawn[1].stroke == 1);
     CHECK(match.count(StrokeRemarkKind::extra) + match.count(StrokeRemarkKind::missing) == 0);
+  }
+  SECTION("out of order, beside a pen-down that joined the others") {
+    const Character woman = character_of("女");
+    const std::vector<PenPath> strokes = copy_of(woman);
+    drawn = {strokes[1], strokes[0]};
+    append(drawn[0], strokes[2]);
+    const MatchResult match = match_strokes(woman, drawn);
+    CAPTURE(told(match));
+    CHECK(match.drawn[1].stroke == 0);
+    CHECK(match.count(StrokeRemarkKind::joined) == 1);
+    CHECK(match.count(StrokeRemarkKind::order) == 1);
+    CHECK(match.remarks.size() == 2);
   }
   SECTION("far from its place") {
     const Character eternal = character_of("永");
@@ -658,6 +727,8 @@ TEST_CASE("invalid paths are rejected by number", "[practice]") {
   CHECK(refusal() == "pen-down 2 has no point");
   drawn[1] = {Point(0.5, std::nan(""))};
   CHECK(refusal() == "pen-down 2 has a point that is not finite");
+  drawn[1] = {Point(0.5, -2e9)};
+  CHECK(refusal() == "pen-down 2 has a point 2e+09 em away, expected at most 1e+09");
   drawn.assign(1001, PenPath{{0.5, 0.5}});
   CHECK(refusal().find("1001 pen-downs") == 0);
 }

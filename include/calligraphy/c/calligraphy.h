@@ -594,7 +594,7 @@ CALLIGRAPHY_API calligraphy_status calligraphy_match_strokes(const calligraphy_p
 typedef enum calligraphy_direction {
   CALLIGRAPHY_FORWARDS = 0,          ///< as the stroke is to be written
   CALLIGRAPHY_BACKWARDS = 1,         ///< from its end to its start
-  CALLIGRAPHY_NEITHER = 2,           ///< it was drawn as another shape
+  CALLIGRAPHY_NEITHER = 2,           ///< it was drawn as another shape, or only a part of the stroke was
   CALLIGRAPHY_UNKNOWN_DIRECTION = 3  ///< a tap has no direction
 } calligraphy_direction;
 
@@ -608,6 +608,7 @@ typedef struct calligraphy_drawn_stroke {
   int32_t tap;           ///< too short for a stroke with a direction
   int32_t direction;     ///< a calligraphy_direction
   int32_t attempt;       ///< the stroke that it resembles, if it wrote none; -1: no stroke
+  double length;         ///< over that of what it wrote, once both are aligned [1]
   double distance;       ///< mean distance from what it wrote, once both are aligned [em]
 } calligraphy_drawn_stroke;
 
@@ -619,7 +620,7 @@ CALLIGRAPHY_API calligraphy_status calligraphy_match_drawn(const calligraphy_mat
 typedef enum calligraphy_remark_kind {
   CALLIGRAPHY_REMARK_ORDER = 0,      ///< strokes out of order, or two that changed places
   CALLIGRAPHY_REMARK_DIRECTION = 1,  ///< a stroke written backwards
-  CALLIGRAPHY_REMARK_SHAPE = 2,      ///< a stroke drawn as another shape
+  CALLIGRAPHY_REMARK_SHAPE = 2,      ///< a stroke drawn as another shape, or only a part of one
   CALLIGRAPHY_REMARK_JOINED = 3,     ///< strokes written without lifting the pen: no mistake of order
   CALLIGRAPHY_REMARK_BROKEN = 4,     ///< a stroke written in two pen-downs
   CALLIGRAPHY_REMARK_MISSING = 5,    ///< a stroke that was not written

@@ -15,7 +15,7 @@ namespace calligraphy {
 enum class WritingDirection {
   forwards,   ///< as the stroke is to be written
   backwards,  ///< from its end to its start
-  neither,    ///< it was drawn as another shape
+  neither,    ///< it was drawn as another shape, or only a part of the stroke was
   unknown     ///< a tap has no direction
 };
 
@@ -31,6 +31,7 @@ struct DrawnStroke {
   bool tap = false;        ///< shorter than tap_length
   int attempt = -1;        ///< the stroke that it resembles, if it wrote none; -1: no stroke
   WritingDirection direction = WritingDirection::unknown;  ///< along what it wrote or attempted
+  double length = 0.0;                                     ///< over that of what it wrote, once both are aligned [1]
   double distance = 0.0;  ///< mean distance from what it wrote, once both are aligned [em]
 };
 
@@ -38,7 +39,7 @@ struct DrawnStroke {
 enum class StrokeRemarkKind {
   order,      ///< a stroke, or several in a row, out of order; or two that changed places
   direction,  ///< a stroke written backwards
-  shape,      ///< a stroke drawn as another shape, so that its direction is undetermined
+  shape,      ///< a stroke drawn as another shape, or only a part of one, so that its direction is undetermined
   joined,     ///< strokes written without lifting the pen: connected writing, no mistake of order
   broken,     ///< a stroke written in two pen-downs
   missing,    ///< a stroke that was not written
