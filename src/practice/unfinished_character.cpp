@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "resemblance.hpp"
+#include "stroke_reading.hpp"
 #include "stroke_remarks.hpp"
 #include "writing_order.hpp"
 
@@ -75,9 +76,24 @@ double cost(const MatchResult& result, std::span<const PenPath> paths, const std
   return sum;
 }
 
+/// A stroke that was begun when the character was broken off has the direction in which it was begun, however little of
+/// it there is.
+void see_what_was_begun(DrawnStroke& drawn, const PenPath& path, const AffineMap& fit, const PenPath& line) {
+  if (drawn.direction != WritingDirection::neither || drawn.length >= least_share) return;
+  const std::vector<Point> ends = points_along(line, std::min(path_length(line), path_length(path)), 2);
+  const Point begun = fit.linear * (path.back() - path.front());
+  drawn.direction =
+      begun.dot(ends.back() - ends.front()) >= 0.0 ? WritingDirection::forwards : WritingDirection::backwards;
+}
+
 /// Takes out what was only supposed, all but the paths that were drawn: their strokes are missing.
-void take_back(MatchResult& result, std::span<const PenPath> paths, const Character& character) {
+void take_back(MatchResult& result, std::span<const PenPath> paths, const Character& character,
+               const std::vector<PenPath>& lines) {
   result.drawn.resize(paths.size());
+  DrawnStroke& last = result.drawn.back();
+  if (last.stroke >= 0) {
+    see_what_was_begun(last, paths.back(), result.fit, lines[static_cast<std::size_t>(last.stroke)]);
+  }
   set_in_turn(result.drawn);
   result.remarks = remarks_on(character, paths, result.drawn, result.fit);
 }
@@ -109,7 +125,7 @@ MatchResult match_supposing(const Character& character, std::span<const PenPath>
     }
     suppose(count, paths.back());
   }
-  take_back(best, paths, character);
+  take_back(best, paths, character, lines);
   return best;
 }
 
