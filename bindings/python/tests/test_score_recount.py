@@ -408,6 +408,9 @@ def count(drawn, character):
     row = {"stroke_count": len(lines), "pen_downs": [(times[part[0]], times[part[-1]]) for part, _ in downs]}
     row["drawn"] = [-1 if pen.extra else pen.stroke for _, pen in downs]
     row["directions"] = ["backwards" if pen.backwards else "forwards" for _, pen in downs if not pen.extra]
+    last = downs[-1][1] if downs else None
+    if len(downs) == len(lines) and last.end - last.begin < 1 / 3:  # nothing is to come: only a part was written
+        row["directions"][-1] = "neither"
 
     finished = np.flatnonzero(samples["events"] & int(cal.TickEvent.stroke_finished))
     before = np.maximum(finished - 1, 0)
