@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "stroke_reading.hpp"
+#include "stroke_direction.hpp"
 
 namespace calligraphy {
 namespace {

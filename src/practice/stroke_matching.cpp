@@ -8,7 +8,7 @@
 #include <calligraphy/base/error.hpp>
 
 #include "base/require.hpp"
-#include "stroke_reading.hpp"
+#include "stroke_direction.hpp"
 #include "stroke_remarks.hpp"
 #include "writing_order.hpp"
 

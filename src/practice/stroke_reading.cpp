@@ -12,23 +12,19 @@
 
 #include "assignment.hpp"
 #include "longest_rise.hpp"
+#include "reading_in_order.hpp"
+#include "stroke_direction.hpp"
 #include "writing_fit.hpp"
 
 namespace calligraphy {
 namespace {
 
-constexpr double joined_cost = 0.02;    // for each lift of the pen too few [em]
-constexpr double broken_cost = 0.03;    // for one too many [em]
-constexpr double unlikely = 0.1;        // besides, where the number of pen-downs speaks against it [em]
 constexpr double min_doubt = 0.03;      // that another order or another place must save at least [em]
 constexpr double max_substitute = 0.7;  // cost of a pair that is told rather than both left over [em]
-constexpr double opposite_way = 55.0 * std::numbers::pi / 180.0;  // within which a stroke runs backwards [rad]
-constexpr double short_angle = std::numbers::pi / 3.0;  // besides, of strokes whose direction tells nothing [rad]
 constexpr int max_refits = 5;
 constexpr double better = 5e-4;              // by which a refit must be [em]
 constexpr double unlike = 0.06;              // mean cost above which the fit is doubted [em]
 constexpr std::array turns = {-16.0, 16.0};  // of the writing, with which reading begins [degrees]
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 using Costs = std::shared_ptr<const StrokeCosts>;
 
@@ -196,7 +192,7 @@ class Reader {
   StrokeReading read_in_order(const Costs& costs) const {
     std::vector<std::size_t> order(costs->paths());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    return align(costs, order);
+    return read_in_this_order(costs, order);
   }
 
   /// The pen-downs in the order of the strokes that fit them best in all (assignment), read in that order.
@@ -221,7 +217,7 @@ class Reader {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t one, std::size_t other) { return keys[one] < keys[other]; });
-    return align(costs, order);
+    return read_in_this_order(costs, order);
   }
 
   static std::size_t nearest_stroke(const StrokeCosts& costs, std::size_t path) {
@@ -295,48 +291,6 @@ class Reader {
     return strokes;
   }
 
-  /// The cheapest way to take the pen-downs, in this order, for the strokes in theirs: the edits that turn one word
-  /// into another (Needleman and Wunsch 1970), with joined and broken strokes as edits.
-  StrokeReading align(const Costs& costs, const std::vector<std::size_t>& order) const {
-    struct Best {
-      double cost = infinite;
-      ReadingStep step;
-    };
-    const std::size_t paths = order.size(), strokes = costs->strokes();
-    const double join_price = joined_cost + (paths >= strokes ? unlikely : 0.0);
-    const double break_price = broken_cost + (paths <= strokes ? unlikely : 0.0);
-    std::vector<std::vector<Best>> best(paths + 1, std::vector<Best>(strokes + 1));
-    best[0][0].cost = 0.0;
-    for (std::size_t i = 0; i <= paths; ++i) {
-      const std::size_t path = i < paths ? order[i] : paths;
-      for (std::size_t stroke = 0; stroke <= strokes; ++stroke) {
-        const double before = best[i][stroke].cost;
-        const auto reach = [&](std::size_t more_paths, std::size_t more_strokes, double cost) {
-          Best& then = best[i + more_paths][stroke + more_strokes];
-          if (before + cost < then.cost) then = {before + cost, {path, more_paths, stroke, more_strokes, cost}};
-        };
-        if (stroke < strokes) reach(0, 1, left_over_cost);
-        if (i == paths) continue;
-        reach(1, 0, costs->is_tap(path) ? 0.0 : left_over_cost);
-        if (stroke == strokes) continue;
-        reach(1, 1, costs->single(path, stroke).cost);
-        for (std::size_t more = 2; more <= std::min(max_joined, strokes - stroke); ++more) {
-          reach(1, more, costs->joined(path, stroke, more).cost + join_price * static_cast<double>(more - 1));
-        }
-        if (i + 1 < paths && order[i + 1] == path + 1) reach(2, 1, costs->broken(path, stroke).cost + break_price);
-      }
-    }
-    StrokeReading reading{{}, best[paths][strokes].cost, costs};
-    for (std::size_t i = paths, stroke = strokes; i > 0 || stroke > 0;) {
-      const ReadingStep& step = best[i][stroke].step;
-      reading.steps.push_back(step);
-      i -= step.paths;
-      stroke -= step.strokes;
-    }
-    std::reverse(reading.steps.begin(), reading.steps.end());
-    return reading;
-  }
-
   const Character& character_;
   const StrokeOutlines& strokes_;
   const std::span<const PenPath> paths_;
@@ -356,36 +310,6 @@ const PairCost& StrokeReading::pair(const ReadingStep& step) const {
 double StrokeReading::mean_cost() const {
   const std::size_t most = std::max(costs->paths(), costs->strokes());
   return most > 0 ? cost / static_cast<double>(most) : 0.0;
-}
-
-double length_share(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
-  double length = reading.costs->length(step.path);
-  if (step.paths > 1) length += reading.costs->length(step.path + 1);
-  const double whole = strokes.run(step.stroke, step.strokes).way;
-  return whole > 0.0 ? length / whole : 1.0;
-}
-
-WritingDirection direction_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes,
-                              const StrokeTolerances& tolerances) {
-  if (reading.costs->is_tap(step.path)) return WritingDirection::unknown;
-  const double share = length_share(step, reading, strokes);
-  const double left_out = (1.0 - share) * strokes.run(step.stroke, step.strokes).way;
-  if (share < least_share && left_out > sure_length) return WritingDirection::neither;
-  const PairCost& pair = reading.pair(step);
-  const double length = strokes.run(step.stroke, step.strokes).length;
-  const auto runs_along = [&](double accord, double trusted_length, double angle) {
-    return std::acos(std::clamp(accord, -1.0, 1.0)) <= angle + (1.0 - trust_in_direction(trusted_length)) * short_angle;
-  };
-  if (pair.with >= pair.against) {
-    if (runs_along(pair.with, length, tolerances.direction)) return WritingDirection::forwards;
-  } else {
-    // Something much longer than a dot is no dot written backwards.
-    const double longer = std::max(length, reading.costs->length(step.path));
-    if (runs_along(pair.against, longer, std::min(tolerances.direction, opposite_way))) {
-      return WritingDirection::backwards;
-    }
-  }
-  return step.paths > 1 || step.strokes > 1 ? WritingDirection::forwards : WritingDirection::neither;
 }
 
 StrokeReading read_strokes(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <calligraphy/practice/pen_path.hpp>
-#include <calligraphy/practice/stroke_matching.hpp>
+#include <calligraphy/render/stroke_tolerances.hpp>
 
 #include "stroke_costs.hpp"
 #include "stroke_outlines.hpp"
@@ -44,15 +44,5 @@ struct StrokeReading {
 /// `tolerances.distinction` times the mean cost of this hand, or by that factor where the two orders differ.
 StrokeReading read_strokes(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths,
                            const StrokeTolerances& tolerances);
-
-/// Length of the pen-downs of a step over that of the strokes that it takes them for, and below which only a part of a
-/// stroke was written, if what is missing is long enough to be sure.
-double length_share(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes);
-inline constexpr double least_share = 0.35, sure_length = 0.2;  // [1], [em]
-
-/// Direction in which what a step takes was written, as far as `tolerances.direction` and the length of the stroke
-/// allow.
-WritingDirection direction_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes,
-                              const StrokeTolerances& tolerances);
 
 }  // namespace calligraphy

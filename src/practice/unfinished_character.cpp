@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "resemblance.hpp"
-#include "stroke_reading.hpp"
+#include "stroke_direction.hpp"
 #include "stroke_remarks.hpp"
 #include "writing_order.hpp"
 
