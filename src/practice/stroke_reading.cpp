@@ -21,6 +21,7 @@ namespace {
 
 constexpr double min_doubt = 0.03;      // that another order or another place must save at least [em]
 constexpr double max_substitute = 0.7;  // cost of a pair that is told rather than both left over [em]
+constexpr double max_attempt = 0.08, attempt_share = 0.25;  // cost of an attempt [em], and of that of the other stroke
 constexpr int max_refits = 5;
 constexpr double better = 5e-4;              // by which a refit must be [em]
 constexpr double unlike = 0.06;              // mean cost above which the fit is doubted [em]
@@ -50,6 +51,7 @@ class Reader {
       chosen = choose(best);
     }
     pair_left_overs(chosen);
+    unpair_attempts(chosen);
     chosen.comparisons = comparisons_;
     return chosen;
   }
@@ -75,13 +77,14 @@ class Reader {
     return {box.scale.asDiagonal() * turn, box.offset};
   }
 
-  /// A pen-down in the place of a stroke that nothing else wrote is that stroke, misplaced or of another shape; so is
-  /// one that resembles it, wherever it comes in the order.
+  /// A pen-down in the place of a stroke that nothing else wrote is that stroke, misplaced or of another shape, unless
+  /// it is another attempt at one that is written; so is one that resembles it, wherever it comes in the order.
   static void pair_left_overs(StrokeReading& reading) {
     const StrokeCosts& costs = *reading.costs;
     for (std::size_t i = 0; i < reading.steps.size(); ++i) {
       const ReadingStep& extra = reading.steps[i];
       if (extra.paths == 0 || extra.strokes > 0 || costs.is_tap(extra.path)) continue;
+      const bool is_attempt = costs.single(extra.path, nearest_stroke(costs, extra.path)).cost <= left_over_cost;
       std::size_t found = i;
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < reading.steps.size(); ++k) {
@@ -89,7 +92,7 @@ class Reader {
         if (missing.paths > 0) continue;
         const double cost = costs.single(extra.path, missing.stroke).cost;
         const bool is_beside = k + 1 == i || k == i + 1;
-        if (cost > (is_beside ? max_substitute : left_over_cost) || cost >= least) continue;
+        if (cost > (is_beside && !is_attempt ? max_substitute : left_over_cost) || cost >= least) continue;
         found = k;
         least = cost;
       }
@@ -98,6 +101,27 @@ class Reader {
       reading.steps.erase(reading.steps.begin() + static_cast<std::ptrdiff_t>(i));
       --i;
     }
+  }
+
+  /// A pen-down beside an attempt at a stroke, that lies on this stroke too, is another one, not the stroke in whose
+  /// place it is and that nothing else wrote.
+  void unpair_attempts(StrokeReading& reading) const {
+    const StrokeCosts& costs = *reading.costs;
+    std::vector<ReadingStep> missing;
+    for (ReadingStep& step : reading.steps) {
+      if (step.paths != 1 || step.strokes != 1 || costs.is_tap(step.path)) continue;
+      const std::size_t nearest = nearest_stroke(costs, step.path);
+      const double cost = costs.single(step.path, nearest).cost;
+      if (nearest == step.stroke || cost > std::min(max_attempt, attempt_share * step.cost)) continue;
+      const bool is_repeated = std::any_of(reading.steps.begin(), reading.steps.end(), [&](const ReadingStep& other) {
+        const bool is_beside = other.path + 1 == step.path || other.path == step.path + 1;
+        return is_beside && other.paths == 1 && other.strokes == 0 && nearest_stroke(costs, other.path) == nearest;
+      });
+      if (!is_repeated) continue;
+      missing.push_back({step.path, 0, step.stroke, 1, left_over_cost});
+      step = {step.path, 1, step.stroke, 0, left_over_cost};
+    }
+    reading.steps.insert(reading.steps.end(), missing.begin(), missing.end());
   }
 
   Costs place(const AffineMap& fit) {

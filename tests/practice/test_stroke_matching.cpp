@@ -473,6 +473,17 @@ TEST_CASE("strokes that turn about each other are told as joined", "[practice]")
   }
 }
 
+TEST_CASE("a stroke that was left out is missing beside attempts at another one", "[practice]") {
+  const Character eternal = character_of("永");
+  const std::vector<PenPath> strokes = copy_of(eternal);
+  const std::vector<PenPath> drawn = {strokes[3], strokes[3], strokes[1], strokes[2], strokes[3], strokes[4]};
+  const MatchResult match = match_strokes(eternal, drawn);
+  CAPTURE(told(match));
+  CHECK(match.count(StrokeRemarkKind::extra) == 2);
+  CHECK(match.count(StrokeRemarkKind::missing) == 1);
+  CHECK(match.remarks.size() == 3);
+}
+
 TEST_CASE("a pen-down in the place of a stroke that nothing else wrote is that stroke", "[practice]") {
   const Character ten = character_of("十");
   std::vector<PenPath> drawn = copy_of(ten);
