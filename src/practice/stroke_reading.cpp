@@ -77,14 +77,13 @@ class Reader {
     return {box.scale.asDiagonal() * turn, box.offset};
   }
 
-  /// A pen-down in the place of a stroke that nothing else wrote is that stroke, misplaced or of another shape, unless
-  /// it is another attempt at one that is written; so is one that resembles it, wherever it comes in the order.
+  /// A pen-down in the place of a stroke that nothing else wrote is that stroke, misplaced or of another shape; so is
+  /// one that resembles it, wherever it comes in the order.
   static void pair_left_overs(StrokeReading& reading) {
     const StrokeCosts& costs = *reading.costs;
     for (std::size_t i = 0; i < reading.steps.size(); ++i) {
       const ReadingStep& extra = reading.steps[i];
       if (extra.paths == 0 || extra.strokes > 0 || costs.is_tap(extra.path)) continue;
-      const bool is_attempt = costs.single(extra.path, nearest_stroke(costs, extra.path)).cost <= left_over_cost;
       std::size_t found = i;
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < reading.steps.size(); ++k) {
@@ -92,7 +91,7 @@ class Reader {
         if (missing.paths > 0) continue;
         const double cost = costs.single(extra.path, missing.stroke).cost;
         const bool is_beside = k + 1 == i || k == i + 1;
-        if (cost > (is_beside && !is_attempt ? max_substitute : left_over_cost) || cost >= least) continue;
+        if (cost > (is_beside ? max_substitute : left_over_cost) || cost >= least) continue;
         found = k;
         least = cost;
       }
