@@ -298,8 +298,10 @@ fetch_data CALLIGRAPHY_CNCHAR_ORDER cnchar-order 3.2.6
 if [[ -z ${CALLIGRAPHY_PEN_TRACES:-} && -d ../shared/data/traces ]]; then
   CALLIGRAPHY_PEN_TRACES=$(cd ../shared/data/traces && pwd)
   export CALLIGRAPHY_PEN_TRACES
-  CALLIGRAPHY_ALL_PEN_TRACES=$CALLIGRAPHY_PEN_TRACES:$(cd ../shared/data/traces_ja && pwd)
-  export CALLIGRAPHY_ALL_PEN_TRACES
+  if [[ -d ../shared/data/traces_ja ]]; then
+    CALLIGRAPHY_ALL_PEN_TRACES=$CALLIGRAPHY_PEN_TRACES:$(cd ../shared/data/traces_ja && pwd)
+    export CALLIGRAPHY_ALL_PEN_TRACES
+  fi
 fi
 labels=
 everything=(-DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=ON -DCALLIGRAPHY_TOOLS=ON -DCALLIGRAPHY_PICTURES=ON)

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "pen_down.hpp"
+#include "writing_box.hpp"
 
 namespace calligraphy {
 namespace {
@@ -12,17 +13,9 @@ namespace {
 constexpr double flat = 0.15;        // a side of a box below this is flat [em], or relative to the other one
 constexpr double max_stretch = 1.5;  // of one axis against the other
 
-Eigen::AlignedBox2d box_of_all(std::span<const PenPath> paths) {
-  Eigen::AlignedBox2d box;
-  for (const PenPath& path : paths) {
-    for (const Point& point : path) box.extend(point);
-  }
-  return box;
-}
-
 /// Without taps.
 Eigen::AlignedBox2d box_of(std::span<const PenPath> paths) {
-  const double tap = tap_length * std::min(1.0, size_of(paths));
+  const double tap = tap_length * shortening(paths);
   Eigen::AlignedBox2d written;
   for (const PenPath& path : paths) {
     if (path_length(path) < tap) continue;
@@ -39,11 +32,6 @@ double path_length(std::span<const Point> path) noexcept {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
   return length;
-}
-
-double size_of(std::span<const PenPath> paths) noexcept {
-  const Eigen::AlignedBox2d box = box_of_all(paths);
-  return box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
 }
 
 std::vector<PenPath> pen_paths(const PenTrace& trace) {

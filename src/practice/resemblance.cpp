@@ -10,7 +10,6 @@ namespace calligraphy {
 namespace {
 
 constexpr int steps_per_element = 24;
-
 constexpr Eigen::Index samples_per_piece = 8;
 
 /// Sets points on a path that are `step` apart along it, the first one `begin` from its start.

@@ -15,7 +15,7 @@ constexpr double joined_share = 0.75;        // of the cost as one of the stroke
 constexpr double joined_share_of_few = 0.9;  // where there are fewer pen-downs than strokes
 constexpr double broken_gap = 0.25;          // between the parts of a broken stroke, of its length
 constexpr double broken_doubt = 0.04;        // by which one part alone may fit better [em]
-constexpr double impossible = 9.0;           // [em]
+constexpr double impossible = 9.0;           // finite, since assign() takes differences [em]
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr PairCost impossible_pair = {never, 0.0, 0.0, false};
 
@@ -35,8 +35,12 @@ std::vector<DrawnLine> drawn_lines(std::span<const PenPath> paths) {
 
 StrokeCosts::StrokeCosts(const StrokeOutlines& strokes, std::span<const DrawnLine> drawn, const AffineMap& fit)
     : strokes_(&strokes), fit_(fit) {
+  const auto place = [&](const Outline& line) {
+    return Outline((line * fit.linear.transpose()).rowwise() + fit.offset.transpose());
+  };
   for (const DrawnLine& path : drawn) {
     const Outline& line = placed_.emplace_back(place(path.line));
+    placed_with_next_.push_back(place(path.with_next));
     shapes_.push_back(centred(line));
     lengths_.push_back(length_of(line));
   }
@@ -45,7 +49,7 @@ StrokeCosts::StrokeCosts(const StrokeOutlines& strokes, std::span<const DrawnLin
   for (std::size_t path = 0; path < drawn.size(); ++path) compare_singles(path);
   for (std::size_t path = 0; path < drawn.size(); ++path) {
     compare_joined(path);
-    if (path + 1 < drawn.size()) compare_broken(path, drawn[path], drawn[path + 1]);
+    if (path + 1 < drawn.size()) compare_broken(path, (fit.linear * (drawn[path + 1].begin - drawn[path].end)).norm());
   }
 }
 
@@ -86,10 +90,9 @@ void StrokeCosts::compare_joined(std::size_t path) {
   }
 }
 
-void StrokeCosts::compare_broken(std::size_t path, const DrawnLine& drawn, const DrawnLine& next) {
+void StrokeCosts::compare_broken(std::size_t path, double gap) {
   if (is_tap(path) || is_tap(path + 1)) return;
-  const double gap = (fit_.linear * (next.begin - drawn.end)).norm();
-  const Outline both = place(drawn.with_next), shape = centred(both);
+  const Outline &both = placed_with_next_[path], shape = centred(both);
   for (std::size_t stroke = 0; stroke < strokes(); ++stroke) {
     if (gap > broken_gap * strokes_->length(stroke)) continue;
     const PairCost pair = compare(both, shape, strokes_->run(stroke, 1));

@@ -39,12 +39,9 @@ class StrokeCosts {
   std::size_t paths() const { return placed_.size(); }
   std::size_t strokes() const { return strokes_->count(); }
   const AffineMap& fit() const { return fit_; }
-  /// Laid on the character.
-  Outline place(const Outline& line) const {
-    return Outline((line * fit_.linear.transpose()).rowwise() + fit_.offset.transpose());
-  }
-  /// A pen-down, laid on the character.
+  /// A pen-down, laid on the character, and it and the next one as one line.
   const Outline& placed(std::size_t path) const { return placed_[path]; }
+  const Outline& placed_with_next(std::size_t path) const { return placed_with_next_[path]; }
   double length(std::size_t path) const { return lengths_[path]; }
   bool is_tap(std::size_t path) const { return lengths_[path] < tap_length; }
 
@@ -65,11 +62,11 @@ class StrokeCosts {
   PairCost compare(const Outline& line, const Outline& shape, const StrokeRun& run);
   void compare_singles(std::size_t path);
   void compare_joined(std::size_t path);
-  void compare_broken(std::size_t path, const DrawnLine& drawn, const DrawnLine& next);
+  void compare_broken(std::size_t path, double gap);
 
   const StrokeOutlines* strokes_;
   AffineMap fit_;
-  std::vector<Outline> placed_, shapes_;
+  std::vector<Outline> placed_, shapes_, placed_with_next_;
   std::vector<double> lengths_;    ///< of the pen-downs [em]
   std::vector<PairCost> singles_;  ///< by pen-down, then by stroke
   std::vector<PairCost> joined_;   ///< by pen-down, then by the first stroke, then by their number

@@ -10,6 +10,7 @@
 #include "base/require.hpp"
 #include "stroke_direction.hpp"
 #include "stroke_remarks.hpp"
+#include "writing_box.hpp"
 #include "writing_order.hpp"
 
 namespace calligraphy {
@@ -55,12 +56,11 @@ void prefer_corrections(StrokeReading& reading) {
 }
 
 /// Of both parts where the stroke was broken.
-double distance_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes,
-                   std::span<const DrawnLine> drawn) {
+double distance_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
   const StrokeCosts& costs = *reading.costs;
   const Outline& line = strokes.run(step.stroke, step.strokes).line;
   const Outline wanted = reading.pair(step).backwards ? reversed(line) : line;
-  return mean_distance(step.paths > 1 ? costs.place(drawn[step.path].with_next) : costs.placed(step.path), wanted);
+  return mean_distance(step.paths > 1 ? costs.placed_with_next(step.path) : costs.placed(step.path), wanted);
 }
 
 /// What a pen-down that wrote nothing attempted: the stroke that it resembles most, along or against which it runs.
@@ -128,12 +128,12 @@ MatchResult match_strokes(const Character& character, std::span<const PenPath> p
                           const StrokeTolerances& tolerances) {
   require_valid(character, paths);
   validate(tolerances);
+  const double spacing = pen_spacing * shortening(paths);
   std::vector<PenPath> steady;
-  for (const PenPath& path : paths) steady.push_back(without_jitter(path, pen_spacing * std::min(1.0, size_of(paths))));
+  for (const PenPath& path : paths) steady.push_back(without_jitter(path, spacing));
   const StrokeOutlines outlines(character);
   StrokeReading reading = read_strokes(character, outlines, steady, tolerances);
   prefer_corrections(reading);
-  const std::vector<DrawnLine> lines = drawn_lines(steady);
   MatchResult match;
   match.fit = reading.costs->fit();
   match.drawn.resize(paths.size());
@@ -147,7 +147,7 @@ MatchResult match_strokes(const Character& character, std::span<const PenPath> p
         drawn.continues = path > step.path;
         drawn.direction = direction_of(step, reading, outlines, tolerances);
         drawn.length = length_share(step, reading, outlines);
-        drawn.distance = distance_of(step, reading, outlines, lines);
+        drawn.distance = distance_of(step, reading, outlines);
       } else {
         find_attempt(drawn, path, reading, outlines, tolerances);
       }

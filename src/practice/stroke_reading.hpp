@@ -23,14 +23,15 @@ struct ReadingStep {
 
   bool is_written() const { return paths > 0 && strokes > 0; }
   bool takes_the_same(const ReadingStep& other) const {
-    return path == other.path && paths == other.paths && stroke == other.stroke && strokes == other.strokes;
+    return paths == other.paths && strokes == other.strokes && (paths == 0 || path == other.path) &&
+           (strokes == 0 || stroke == other.stroke);
   }
 };
 
 /// Every pen-down and every stroke is in one step.
 struct StrokeReading {
   std::vector<ReadingStep> steps;
-  double cost = 0.0;                         ///< of all steps
+  double cost = 0.0;                         ///< of all steps, before what was left over was paired
   std::shared_ptr<const StrokeCosts> costs;  ///< at the fit of this reading
   long comparisons = 0;                      ///< of a pen-down with strokes, that led to it
 

@@ -18,9 +18,6 @@ inline constexpr double tap_length = 0.02;
 /// Length of a polyline, in the unit of its points; 0 for fewer than two.
 double path_length(std::span<const Point> path) noexcept;
 
-/// The longer side of the box about the pen-downs, in the unit of their points; 0 without any.
-double size_of(std::span<const PenPath> paths) noexcept;
-
 /// The pen-downs of a trace, in the coordinates of the square that the person wrote in.
 std::vector<PenPath> pen_paths(const PenTrace& trace);
 
