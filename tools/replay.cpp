@@ -28,6 +28,8 @@
 namespace calligraphy::tools {
 namespace {
 
+constexpr std::size_t most_recognised = 5;
+
 struct ReplayArguments {
   std::string traces;
   std::vector<std::string> characters;
@@ -37,6 +39,7 @@ struct ReplayArguments {
   std::string renderer = "default";
   PageChoice page;
   StrokeStyle style = StrokeStyle::ink;  ///< of the templates
+  bool recognise = false;
   bool json = false;
 };
 
@@ -92,7 +95,9 @@ class ReplayRun {
     for (const char32_t code : text) {
       if (!set.find(code)) report_.without_template += code;
     }
-    if (report_.without_template == text)
+    const CharacterIndex index(set);
+    if (options_.recognise) recognise(traces, index);
+    if (report_.without_template == text && !options_.recognise)
       throw Error("none of the written characters is in the character set (see --characters), for example " +
                   character_label(text.front()));
     const auto has_template = [&set](const Chosen& each) { return set.find(each.trace.character).has_value(); };
@@ -104,7 +109,7 @@ class ReplayRun {
     for (std::size_t i = 0; i < traces.size(); ++i) {
       if (interrupt.asked()) break;
       const auto stored = set.find(traces[i].trace.character);
-      if (stored) replay_one(traces[i], stored->character(), out);
+      if (stored) replay_one(traces[i], stored->character(), index, out);
       progress.show(static_cast<double>(i + 1) / static_cast<double>(traces.size()));
     }
     if (report_.traces.empty()) interrupt.check();
@@ -117,7 +122,15 @@ class ReplayRun {
   }
 
  private:
-  void replay_one(const Chosen& chosen, const Character& character, const std::optional<OutputDirectory>& out) {
+  void recognise(const std::vector<Chosen>& traces, const CharacterIndex& index) {
+    for (const Chosen& each : traces) {
+      report_.recognised.push_back(
+          {each.position, each.trace.character, index.recognise(pen_paths(each.trace), most_recognised)});
+    }
+  }
+
+  void replay_one(const Chosen& chosen, const Character& character, const CharacterIndex& index,
+                  const std::optional<OutputDirectory>& out) {
     const PracticePage page = lay_out({&character, 1}, layout_).front();
     const HapticRenderer renderer(page.characters, *session_.mapping, session_.device, session_.renderer);
     report_.max_force_step = renderer.max_force_step();
@@ -127,7 +140,7 @@ class ReplayRun {
     Replayed result;
     result.position = chosen.position;
     result.set = chosen.trace.set;
-    result.match = match_strokes(character, paths);
+    result.match = match_strokes(character, paths, {}, &index);
     std::vector<PenKinematics> motions;
     for (const PenStroke& stroke : chosen.trace.strokes) motions.push_back(pen_kinematics(stroke));
     result.motion = writing_motion(motions);
@@ -177,6 +190,10 @@ void add_replay(CLI::App& program) {
   command->add_option("--renderer", options->renderer, "Default stages, or the optional stages enabled too")
       ->check(CLI::IsMember({"default", "everything"}))
       ->capture_default_str();
+  command
+      ->add_flag("--recognise", options->recognise,
+                 "Also look up what was written: the characters of as many strokes that each trace resembles most")
+      ->disable_flag_override();
   add_lines_flag(*command, options->style);
   command->add_flag("--json", options->json, "Print JSON instead of the table")->disable_flag_override();
   command->callback([options] { ReplayRun(*options).replay(); });

@@ -20,19 +20,21 @@ int strokes_drawn(const MatchResult& match) {
                                         [](const DrawnStroke& drawn) { return drawn.stroke >= 0 || !drawn.tap; }));
 }
 
-bool none_recognised(const MatchResult& match) {
-  return std::none_of(match.drawn.begin(), match.drawn.end(),
+/// Nothing can be said of its strokes.
+bool is_unclear(const MatchResult& match) {
+  return match.count(StrokeRemarkKind::character) > 0 ||
+         std::none_of(match.drawn.begin(), match.drawn.end(),
                       [](const DrawnStroke& drawn) { return drawn.stroke >= 0; });
 }
 
 std::string order_of(const MatchResult& match) {
-  if (none_recognised(match)) return "unclear";
+  if (is_unclear(match)) return "unclear";
   const int wrong = match.count(StrokeRemarkKind::order);
   return wrong == 0 ? "correct" : fmt::format("{} out of order", wrong);
 }
 
 std::string direction_of(const MatchResult& match) {
-  if (none_recognised(match)) return "unclear";
+  if (is_unclear(match)) return "unclear";
   const int wrong = match.count(StrokeRemarkKind::direction), unclear = match.count(StrokeRemarkKind::shape);
   if (wrong > 0) return fmt::format("{} backwards", wrong);
   return unclear == 0 ? "correct" : fmt::format("{} unclear", unclear);
@@ -41,8 +43,9 @@ std::string direction_of(const MatchResult& match) {
 /// "1 joined, 2 missing"
 std::string others(const MatchResult& match) {
   using Kind = StrokeRemarkKind;
+  if (match.count(Kind::character) > 0) return "another character";
   std::string text;
-  for (const Kind kind : {Kind::shape, Kind::joined, Kind::broken, Kind::missing, Kind::extra}) {
+  for (const Kind kind : {Kind::shape, Kind::joined, Kind::broken, Kind::missing, Kind::extra, Kind::lookalike}) {
     const int count = match.count(kind);
     if (count == 0) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_string(kind));
@@ -65,6 +68,26 @@ std::string motion_table(const ReplayReport& report) {
                     fixed(motion.peak_speed, 2), motion.velocity_peaks, fixed(motion.smoothness, 2));
   }
   return text;
+}
+
+/// What each trace resembles, the nearest first, with the distances.
+std::string recognised_lines(const ReplayReport& report) {
+  std::string text;
+  for (const Recognised& each : report.recognised) {
+    text += fmt::format("{:>3} {}  resembles:", each.position, encode_utf8(each.character));
+    if (each.as.empty()) text += " no character with as many strokes";
+    for (const RecognisedCharacter& as : each.as) text += fmt::format(" {} {:.3f}", encode_utf8(as.code), as.distance);
+    text += "\n";
+  }
+  return text;
+}
+
+Json json_of(const Recognised& recognised) {
+  Json as = Json::array();
+  for (const RecognisedCharacter& each : recognised.as) {
+    as.push_back({{"character", encode_utf8(each.code)}, {"distance_em", each.distance}});
+  }
+  return {{"position", recognised.position}, {"character", encode_utf8(recognised.character)}, {"resembles", as}};
 }
 
 Json json_of(const Replayed& trace) {
@@ -125,6 +148,7 @@ std::string table(const ReplayReport& report) {
                       report.max_force_step);
   text += "\n" + motion_table(report);
   if (!remarks.empty()) text += "\n" + remarks;
+  if (!report.recognised.empty()) text += "\n" + recognised_lines(report);
   const auto right = [&report](std::string (*judged)(const MatchResult&)) {
     return std::count_if(report.traces.begin(), report.traces.end(),
                          [judged](const Replayed& trace) { return judged(trace.match) == "correct"; });
@@ -146,13 +170,14 @@ std::string json(const ReplayReport& report) {
   for (const Replayed& trace : report.traces) traces.push_back(json_of(trace));
   Json missing = Json::array();
   for (const char32_t code : report.without_template) missing.push_back(encode_utf8(code));
-  const Json all = {{"device", report.device},
+  Json all = {{"device", report.device},
                     {"renderer", report.renderer},
                     {"peak_force_limit_N", report.peak_force},  // null: no limit
                     {"force_step_limit_N", report.max_force_step},
                     {"interrupted", report.interrupted},
                     {"traces", traces},
                     {"without_template", missing}};
+  for (const Recognised& each : report.recognised) all["recognised"].push_back(json_of(each));
   return all.dump(2) + "\n";
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/practice/character_index.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/stroke_matching.hpp>
 
@@ -19,14 +20,22 @@ struct Replayed {
   int faults = 0;         ///< ticks whose sample the renderer rejected
 };
 
+/// What a trace resembles.
+struct Recognised {
+  int position = 0;        ///< in the file, from 1
+  char32_t character = 0;  ///< that the person was to write
+  std::vector<RecognisedCharacter> as;
+};
+
 struct ReplayReport {
   std::string device;
   std::string renderer;         ///< "default" or "everything"
   double peak_force = 0.0;      ///< of the device [N]
   double max_force_step = 0.0;  ///< of the renderer [N per tick]
   std::vector<Replayed> traces;
-  bool interrupted = false;  ///< there are fewer than were asked for
-  std::u32string without_template;  ///< written characters that are not in the set
+  std::vector<Recognised> recognised;  ///< if asked for, of every trace
+  bool interrupted = false;            ///< there are fewer than were asked for
+  std::u32string without_template;     ///< written characters that are not in the set
 };
 
 /// One line per trace, the limits, all remarks, then the totals.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <calligraphy/base/text.hpp>
 #include <calligraphy/practice/stroke_matching.hpp>
 #include <calligraphy/practice/writing_motion.hpp>
 
@@ -23,6 +24,7 @@ inline nlohmann::ordered_json remark_json(const StrokeRemark& remark) {
           {"stroke_count", remark.stroke_count},
           {"other_pen_down", number(remark.other_path)},
           {"other_stroke", number(remark.other_stroke)},
+          {"other_character", remark.other_character ? Json(encode_utf8(remark.other_character)) : Json()},
           {"place_em", {remark.place.x(), remark.place.y()}},
           {"reason", remark.reason}};
 }

@@ -78,7 +78,8 @@ calligraphy_status calligraphy_match_remark(const calligraphy_match* match, int3
                     .stroke_count = found.stroke_count,
                     .other_path = found.other_path,
                     .other_stroke = found.other_stroke,
-                    .place = {found.place.x(), found.place.y()}});
+                    .place = {found.place.x(), found.place.y()},
+                    .other_character = found.other_character});
     }
     if (reason) *reason = found.reason.c_str();
   });

@@ -1,6 +1,7 @@
 #include <calligraphy/model/character_set.hpp>
 
 #include <algorithm>
+#include <utility>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/set_encoding.hpp>
@@ -69,12 +70,18 @@ std::optional<StoredCharacter> CharacterSet::find(char32_t code, std::string_vie
 
 std::vector<std::string> CharacterSet::orders(char32_t code) const {
   std::vector<std::string> names;
-  for (const auto& layer : *layers_) {
-    for (const StoredCharacter& form : SetFile::find_all(layer, code)) {
-      if (std::find(names.begin(), names.end(), form.order()) == names.end()) names.emplace_back(form.order());
-    }
+  for (const StoredCharacter& form : forms(code)) {
+    if (std::find(names.begin(), names.end(), form.order()) == names.end()) names.emplace_back(form.order());
   }
   return names;
+}
+
+std::vector<StoredCharacter> CharacterSet::forms(char32_t code) const {
+  std::vector<StoredCharacter> all;
+  for (const auto& layer : *layers_) {
+    for (StoredCharacter& form : SetFile::find_all(layer, code)) all.push_back(std::move(form));
+  }
+  return all;
 }
 
 std::optional<char32_t> CharacterSet::next(char32_t from) const noexcept {

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include <calligraphy/base/text.hpp>
+
 #include "stroke_direction.hpp"
 
 namespace calligraphy {
@@ -52,7 +54,8 @@ class Words {
 
 }  // namespace
 
-std::string sentence(const StrokeRemark& remark, std::span<const DrawnStroke> drawn, std::span<const Stroke> strokes) {
+std::string sentence(const StrokeRemark& remark, std::span<const DrawnStroke> drawn, char32_t character,
+                     std::span<const Stroke> strokes) {
   const Words words(strokes);
   switch (remark.kind) {
     case StrokeRemarkKind::order:
@@ -72,6 +75,10 @@ std::string sentence(const StrokeRemark& remark, std::span<const DrawnStroke> dr
              " and " + std::to_string(remark.path + 2);
     case StrokeRemarkKind::missing:
       return words.stroke(remark.stroke) + " was not written";
+    case StrokeRemarkKind::character:
+      return "this is " + encode_utf8(remark.other_character) + ", not " + encode_utf8(character);
+    case StrokeRemarkKind::lookalike:
+      return "this is nearer to " + encode_utf8(remark.other_character) + " than to " + encode_utf8(character);
     case StrokeRemarkKind::extra:
       break;
   }

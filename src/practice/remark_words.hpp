@@ -9,7 +9,9 @@
 
 namespace calligraphy {
 
-/// One sentence. `drawn` has the pen-downs of the remark.
-std::string sentence(const StrokeRemark& remark, std::span<const DrawnStroke> drawn, std::span<const Stroke> strokes);
+/// One sentence on the writing of a character with this code and these strokes. `drawn` has the pen-downs of the
+/// remark.
+std::string sentence(const StrokeRemark& remark, std::span<const DrawnStroke> drawn, char32_t character,
+                     std::span<const Stroke> strokes);
 
 }  // namespace calligraphy

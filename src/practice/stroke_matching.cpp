@@ -7,7 +7,8 @@
 
 #include <calligraphy/base/error.hpp>
 
-#include "base/require.hpp"
+#include "other_character.hpp"
+#include "require_paths.hpp"
 #include "stroke_direction.hpp"
 #include "stroke_remarks.hpp"
 #include "writing_box.hpp"
@@ -15,9 +16,6 @@
 
 namespace calligraphy {
 namespace {
-
-constexpr std::size_t max_paths = 1000;
-constexpr double farthest = 1e9;  // [em]
 
 /// Of the pen-downs that wrote nothing and follow each other up to this one, or from it on, one that runs forwards
 /// along a stroke.
@@ -77,24 +75,10 @@ void find_attempt(DrawnStroke& drawn, std::size_t path, const StrokeReading& rea
   }
 }
 
-void require_valid(const Character& character, std::span<const PenPath> paths) {
+void require_valid(const Character& character) {
   const std::vector<ValidationIssue> problems = validate(character);
   if (!problems.empty()) {
     throw ValueError("the character's stroke " + std::to_string(problems[0].stroke) + ": " + problems[0].what);
-  }
-  if (paths.size() > max_paths) {
-    throw ValueError(std::to_string(paths.size()) + " pen-downs: expected at most " + std::to_string(max_paths));
-  }
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    const std::string pen_down = "pen-down " + std::to_string(i + 1);
-    if (paths[i].empty()) throw ValueError(pen_down + " has no point");
-    for (const Point& point : paths[i]) {
-      if (!point.allFinite()) throw ValueError(pen_down + " has a point that is not finite");
-      if (point.cwiseAbs().maxCoeff() > farthest) {
-        throw ValueError(pen_down + " has a point " + number_text(point.cwiseAbs().maxCoeff()) +
-                         " em away, expected at most " + number_text(farthest));
-      }
-    }
   }
 }
 
@@ -115,7 +99,8 @@ const char* to_string(WritingDirection direction) noexcept {
 }
 
 const char* to_string(StrokeRemarkKind kind) noexcept {
-  constexpr std::array names = {"order", "direction", "shape", "joined", "broken", "missing", "extra"};
+  constexpr std::array names = {"order",   "direction", "shape",     "joined",   "broken",
+                                "missing", "extra",     "character", "lookalike"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -125,8 +110,9 @@ int MatchResult::count(StrokeRemarkKind kind) const noexcept {
 }
 
 MatchResult match_strokes(const Character& character, std::span<const PenPath> paths,
-                          const StrokeTolerances& tolerances) {
-  require_valid(character, paths);
+                          const StrokeTolerances& tolerances, const CharacterIndex* others) {
+  require_valid(character);
+  require_paths(paths);
   validate(tolerances);
   const double spacing = pen_spacing * shortening(paths);
   std::vector<PenPath> steady;
@@ -154,7 +140,9 @@ MatchResult match_strokes(const Character& character, std::span<const PenPath> p
     }
   }
   set_in_turn(match.drawn);
-  match.remarks = remarks_on(character, paths, match.drawn, match.fit);
+  std::optional<OtherCharacter> other;
+  if (others) other = other_character(others->features(), character.code, outlines, steady, reading);
+  match.remarks = remarks_on(character, paths, match.drawn, match.fit, other);
   return match;
 }
 

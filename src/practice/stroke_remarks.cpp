@@ -7,6 +7,7 @@
 
 #include "remark_words.hpp"
 #include "resemblance.hpp"
+#include "writing_box.hpp"
 #include "writing_order.hpp"
 
 namespace calligraphy {
@@ -16,13 +17,20 @@ class Remarks {
  public:
   Remarks(const Character& character, std::span<const PenPath> paths, std::span<const DrawnStroke> drawn,
           const AffineMap& fit)
-      : strokes_(strokes(character)), paths_(paths), drawn_(drawn), fit_(fit), order_(find_order(drawn)) {
+      : character_(character),
+        strokes_(strokes(character)),
+        paths_(paths),
+        drawn_(drawn),
+        fit_(fit),
+        order_(find_order(drawn)) {
     for (int path = 0; path < static_cast<int>(drawn.size()); ++path) {
       if (at(path).stroke >= 0 && !at(path).continues) written_.push_back(path);
     }
   }
 
-  std::vector<StrokeRemark> run() {
+  std::vector<StrokeRemark> run(const std::optional<OtherCharacter>& other) {
+    if (other) tell_other(*other);
+    if (other && !other->is_lookalike) return std::move(remarks_);
     for (int path = 0; path < static_cast<int>(drawn_.size()); ++path) tell(path);
     std::vector<bool> is_written(strokes_.size(), false);
     for (const int path : written_) {
@@ -39,8 +47,16 @@ class Remarks {
   const DrawnStroke& at(int path) const { return drawn_[static_cast<std::size_t>(path)]; }
 
   void add(StrokeRemark remark) {
-    remark.reason = sentence(remark, drawn_, strokes_);
+    remark.reason = sentence(remark, drawn_, character_.code, strokes_);
     remarks_.push_back(std::move(remark));
+  }
+
+  void tell_other(const OtherCharacter& other) {
+    add({.kind = other.is_lookalike ? StrokeRemarkKind::lookalike : StrokeRemarkKind::character,
+         .path = 0,
+         .path_count = static_cast<int>(paths_.size()),
+         .other_character = other.code,
+         .place = box_of_all(paths_).center()});
   }
 
   void tell(int path) {
@@ -136,6 +152,7 @@ class Remarks {
     return fit_.linear.inverse() * (points_along(line, path_length(line), 3)[1] - fit_.offset);
   }
 
+  const Character& character_;
   const std::vector<Stroke> strokes_;
   const std::span<const PenPath> paths_;
   const std::span<const DrawnStroke> drawn_;
@@ -148,8 +165,9 @@ class Remarks {
 }  // namespace
 
 std::vector<StrokeRemark> remarks_on(const Character& character, std::span<const PenPath> paths,
-                                     std::span<const DrawnStroke> drawn, const AffineMap& fit) {
-  return Remarks(character, paths, drawn, fit).run();
+                                     std::span<const DrawnStroke> drawn, const AffineMap& fit,
+                                     const std::optional<OtherCharacter>& other) {
+  return Remarks(character, paths, drawn, fit).run(other);
 }
 
 }  // namespace calligraphy

@@ -1,15 +1,20 @@
 // What there is to remark on a character that was read.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <calligraphy/practice/stroke_matching.hpp>
 
+#include "other_character.hpp"
+
 namespace calligraphy {
 
-/// By pen-down, then the strokes that none of them wrote. `drawn` tells what each of the paths wrote.
+/// By pen-down, then the strokes that none of them wrote. `drawn` tells what each of the paths wrote. If it was another
+/// character, that alone, or of a lookalike, that first.
 std::vector<StrokeRemark> remarks_on(const Character& character, std::span<const PenPath> paths,
-                                     std::span<const DrawnStroke> drawn, const AffineMap& fit);
+                                     std::span<const DrawnStroke> drawn, const AffineMap& fit,
+                                     const std::optional<OtherCharacter>& other = std::nullopt);
 
 }  // namespace calligraphy

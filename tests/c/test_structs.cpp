@@ -412,6 +412,7 @@ TEST_CASE("pen-downs are matched as in C++, with remarks for people") {
     CHECK(remark.stroke_count == there.stroke_count);
     CHECK(remark.other_path == there.other_path);
     CHECK(remark.other_stroke == there.other_stroke);
+    CHECK(remark.other_character == there.other_character);
     CHECK((Point(remark.place[0], remark.place[1]) - there.place).norm() < 1e-9);
     CHECK(reason == there.reason);
   }
@@ -438,7 +439,7 @@ TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its 
   CHECK(sizeof(calligraphy_tick) == 360);
   CHECK(sizeof(calligraphy_servo_state) == 64);
   CHECK(sizeof(calligraphy_drawn_stroke) == 48);
-  CHECK(sizeof(calligraphy_remark) == 48);
+  CHECK(sizeof(calligraphy_remark) == 56);
   CHECK(sizeof(calligraphy_character_score) == 208);
   CHECK(sizeof(calligraphy_stroke_score) == 56);
   CHECK(sizeof(calligraphy_pen_down_score) == 64);
@@ -479,4 +480,6 @@ TEST_CASE("the names of C are the values of C++") {
   CHECK(CALLIGRAPHY_REMARK_BROKEN == static_cast<int>(StrokeRemarkKind::broken));
   CHECK(CALLIGRAPHY_REMARK_MISSING == static_cast<int>(StrokeRemarkKind::missing));
   CHECK(CALLIGRAPHY_REMARK_EXTRA == static_cast<int>(StrokeRemarkKind::extra));
+  CHECK(CALLIGRAPHY_REMARK_CHARACTER == static_cast<int>(StrokeRemarkKind::character));
+  CHECK(CALLIGRAPHY_REMARK_LOOKALIKE == static_cast<int>(StrokeRemarkKind::lookalike));
 }

@@ -67,11 +67,15 @@ PenTrace trace_of(char32_t character, const std::vector<ArrayLike>& strokes, std
   return result;
 }
 
-MatchResult match_of(const Character& character, const std::vector<ArrayLike>& paths,
-                     const StrokeTolerances& tolerances) {
+std::vector<PenPath> paths_of(const std::vector<ArrayLike>& paths) {
   std::vector<PenPath> drawn;
   for (const ArrayLike& path : paths) drawn.push_back(points(path, "paths"));
-  return released(&match_strokes)(character, drawn, tolerances);
+  return drawn;
+}
+
+MatchResult match_of(const Character& character, const std::vector<ArrayLike>& paths,
+                     const StrokeTolerances& tolerances, const CharacterIndex* others) {
+  return released(&match_strokes)(character, paths_of(paths), tolerances, others);
 }
 
 using Arrays = py::typing::List<Doubles>;
@@ -90,7 +94,8 @@ Arrays pen_downs(const PenTrace& trace) {
 }  // namespace
 
 void add_practice(py::module_& module) {
-  add_types<PageLayout, PracticePage, DrawnStroke, StrokeRemark, AffineMap, MeanInterval, InkDetail, StrokeStyle>(module);
+  add_types<PageLayout, PracticePage, DrawnStroke, StrokeRemark, RecognisedCharacter, AffineMap, MeanInterval,
+            InkDetail, StrokeStyle>(module);
   add_struct<WriterSkill>(module)
       .def_static("novice", &WriterSkill::novice)
       .def_static("skilled", &WriterSkill::skilled);
@@ -154,8 +159,19 @@ void add_practice(py::module_& module) {
   module.def("page_picture", released(&page_picture), "page"_a, "recording"_a, "active"_a = 0, "title"_a = "",
              "style"_a = StrokeStyle::ink);
 
+  py::class_<CharacterIndex>(module, "CharacterIndex")
+      .def(py::init(released(+[](const CharacterSet& set) { return CharacterIndex(set); })), "characters"_a)
+      .def(py::init(released(+[](const CharacterList& list) { return CharacterIndex(CharacterSet(list)); })),
+           "characters"_a)
+      .def("__len__", &CharacterIndex::size)
+      .def(
+          "recognise",
+          [](const CharacterIndex& self, const std::vector<ArrayLike>& paths, std::size_t most) {
+            return self.recognise(paths_of(paths), most);
+          },
+          "paths"_a, "most"_a = 10, "+ Each path is an array (n, 2).");
   module.def("match_strokes", &match_of, "character"_a, "paths"_a, "tolerances"_a = StrokeTolerances(),
-             "+ Each path is an array (n, 2) [em].");
+             "others"_a = py::none(), "+ Each path is an array (n, 2) [em].");
 
   module.def(
       "pen_kinematics",

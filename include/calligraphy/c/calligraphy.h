@@ -624,7 +624,9 @@ typedef enum calligraphy_remark_kind {
   CALLIGRAPHY_REMARK_JOINED = 3,     ///< strokes written without lifting the pen: no mistake of order
   CALLIGRAPHY_REMARK_BROKEN = 4,     ///< a stroke written in two pen-downs
   CALLIGRAPHY_REMARK_MISSING = 5,    ///< a stroke that was not written
-  CALLIGRAPHY_REMARK_EXTRA = 6       ///< a pen-down that matches no stroke of the character
+  CALLIGRAPHY_REMARK_EXTRA = 6,      ///< a pen-down that matches no stroke of the character
+  CALLIGRAPHY_REMARK_CHARACTER = 7,  ///< the writing is another character: then nothing else is told
+  CALLIGRAPHY_REMARK_LOOKALIKE = 8   ///< a note: the writing is nearer to a character that hardly differs from this one
 } calligraphy_remark_kind;
 
 /// A remark: one fault, or what is told as one.
@@ -638,6 +640,7 @@ typedef struct calligraphy_remark {
   int32_t other_path;    ///< the pen-down whose stroke changed places with this one, or that wrote what this attempts
   int32_t other_stroke;  ///< the stroke that was due, or written before; of an extra pen-down, that it attempts
   double place[2];       ///< to point at, in the square of the character [em]
+  uint32_t other_character;  ///< code point of the character that the writing is nearer to; 0: none
 } calligraphy_remark;
 
 /// Number of remarks.

@@ -118,6 +118,8 @@ class CharacterSet {
   std::optional<StoredCharacter> find(char32_t code, std::string_view order = {}) const noexcept;
   /// Names of all stroke orders of a character; that of the standard one is empty.
   std::vector<std::string> orders(char32_t code) const;
+  /// Every form of a character, those that another layer hides too: of each layer, in every stroke order.
+  std::vector<StoredCharacter> forms(char32_t code) const;
   /// The first character at or after this code point, if any.
   std::optional<char32_t> next(char32_t from) const noexcept;
 

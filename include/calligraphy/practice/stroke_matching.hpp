@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <calligraphy/model/character.hpp>
+#include <calligraphy/practice/character_index.hpp>
 #include <calligraphy/practice/pen_path.hpp>
 #include <calligraphy/render/stroke_tolerances.hpp>
 
@@ -43,10 +44,12 @@ enum class StrokeRemarkKind {
   joined,     ///< strokes written without lifting the pen: connected writing, no mistake of order
   broken,     ///< a stroke written in two pen-downs
   missing,    ///< a stroke that was not written
-  extra       ///< a pen-down that matches no stroke of the character
+  extra,      ///< a pen-down that matches no stroke of the character
+  character,  ///< the writing is another character: then nothing else is told
+  lookalike   ///< a note: the writing is nearer to a character that hardly differs from this one
 };
 
-/// "order", "direction", "shape", "joined", "broken", "missing", "extra".
+/// "order", "direction", "shape", "joined", "broken", "missing", "extra", "character", "lookalike".
 const char* to_string(StrokeRemarkKind kind) noexcept;
 
 /// A remark: one fault, or what is told as one.
@@ -58,14 +61,15 @@ struct StrokeRemark {
   int stroke_count = 0;   ///< strokes in a row
   int other_path = -1;    ///< the pen-down whose stroke changed places with this one, or that wrote what this attempts
   int other_stroke = -1;  ///< the stroke that was due, or written before; of an extra pen-down, that it attempts
-  Point place = Point::Zero();  ///< to point at: on what was written, or where a missing stroke belongs beside it [em]
-  std::string reason = {};      ///< one sentence for people
+  char32_t other_character = 0;  ///< that the writing is nearer to; 0: none
+  Point place = Point::Zero();   ///< to point at: on what was written, or where a missing stroke belongs beside it [em]
+  std::string reason = {};       ///< one sentence for people
 };
 
 /// Result of match_strokes().
 struct MatchResult {
   std::vector<DrawnStroke> drawn;     ///< one per pen-down, in the order of writing
-  std::vector<StrokeRemark> remarks;  ///< by pen-down, then missing strokes; one for each fault
+  std::vector<StrokeRemark> remarks;  ///< of the whole, then by pen-down, then missing strokes; one for each fault
   AffineMap fit;                      ///< maps the pen-downs onto the character
 
   /// Number of remarks of a kind.
@@ -81,10 +85,11 @@ struct MatchResult {
 /// forwards within the angle `tolerances.direction`. For the steps and the bounds, and how often they are right, see
 /// docs/practice.md. O(readings paths strokes).
 ///
-/// `paths` are in the square of the character; writing from elsewhere is mapped there by fit_box.
+/// `paths` are in the square of the character; writing from elsewhere is mapped there by fit_box. With `others`, that
+/// the writing is another character of as many strokes is told; one of fewer or more strokes is not recognised.
 /// @throws ValueError when the character or a tolerance is invalid, there are more than 1000 paths, or one is empty,
 /// not finite or more than 1e9 em away
 MatchResult match_strokes(const Character& character, std::span<const PenPath> paths,
-                          const StrokeTolerances& tolerances = {});
+                          const StrokeTolerances& tolerances = {}, const CharacterIndex* others = nullptr);
 
 }  // namespace calligraphy

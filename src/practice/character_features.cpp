@@ -1,0 +1,96 @@
+#include "character_features.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace calligraphy {
+namespace {
+
+constexpr Eigen::Index values_per_stroke = 2 * points_in_stroke;
+constexpr Eigen::Index pieces_per_point = Outline::RowsAtCompileTime / points_in_stroke;
+constexpr double spread = 0.25;     // standard deviation each way [em]
+constexpr double min_share = 0.25;  // of the larger standard deviation, that the smaller one is taken for at least
+
+/// Another code of a character, or a part of one: not what somebody writes.
+bool is_written(char32_t code) {
+  const bool is_radical = code >= 0x2E80 && code < 0x2FE0, is_stroke = code >= 0x31C0 && code < 0x31F0;
+  return !is_radical && !is_stroke && !(code >= 0xF900 && code < 0xFB00) && !(code >= 0x2F800 && code < 0x2FA20);
+}
+
+}  // namespace
+
+CharacterFeature character_feature(std::span<const Outline> strokes) {
+  Eigen::MatrixX2d points(points_in_stroke * static_cast<Eigen::Index>(strokes.size()), 2);
+  Eigen::Index row = 0;
+  for (const Outline& stroke : strokes) {
+    for (Eigen::Index k = 0; k < points_in_stroke; ++k, ++row) {
+      points.row(row) = stroke.middleRows<pieces_per_point>(k * pieces_per_point).colwise().mean();
+    }
+  }
+  if (row == 0) return {};
+  points.rowwise() -= points.colwise().mean().eval();
+  const Point deviation = (points.colwise().squaredNorm() / static_cast<double>(row)).cwiseSqrt().transpose();
+  // The slope of a lone line is all that there is to see.
+  const double share = strokes.size() == 1 ? 1.0 : min_share;
+  const double least = std::max(share * deviation.maxCoeff(), 1e-9);
+  for (const int axis : {0, 1}) points.col(axis) *= spread / std::max(deviation[axis], least);
+  return points.reshaped<Eigen::RowMajor>().cast<float>();
+}
+
+double apart(const Eigen::Ref<const CharacterFeature>& one, const Eigen::Ref<const CharacterFeature>& other) {
+  return static_cast<double>((one - other).norm()) / std::sqrt(static_cast<double>(one.size()) / 2.0);
+}
+
+CharacterFeatures::CharacterFeatures(const CharacterSet& set) {
+  std::vector<std::vector<CharacterFeature>> features;
+  for (std::optional<char32_t> code = set.next(0); code; code = set.next(*code + 1)) {
+    if (!is_written(*code)) continue;
+    ++size_;
+    for (const StoredCharacter& form : set.forms(*code)) {
+      const Character character = form.character();
+      std::vector<Outline> outlines;
+      for (const Stroke& stroke : strokes(character)) {
+        outlines.push_back(outline(middle_line(stroke, {Point::Zero(), 1.0})));
+      }
+      groups_.resize(std::max(groups_.size(), outlines.size() + 1));
+      features.resize(groups_.size());
+      groups_[outlines.size()].codes.push_back(*code);
+      features[outlines.size()].push_back(character_feature(outlines));
+    }
+  }
+  for (std::size_t count = 0; count < groups_.size(); ++count) {
+    Eigen::MatrixXf& columns = groups_[count].features;
+    columns.resize(values_per_stroke * static_cast<Eigen::Index>(count),
+                   static_cast<Eigen::Index>(features[count].size()));
+    for (std::size_t i = 0; i < features[count].size(); ++i) {
+      columns.col(static_cast<Eigen::Index>(i)) = features[count][i];
+    }
+  }
+}
+
+std::vector<CharacterFeatures::Neighbour> CharacterFeatures::neighbours(const CharacterFeature& feature) const {
+  std::vector<Neighbour> found;
+  const auto strokes = static_cast<std::size_t>(feature.size() / values_per_stroke);
+  if (strokes >= groups_.size()) return found;
+  const Group& group = groups_[strokes];
+  for (std::size_t i = 0; i < group.codes.size(); ++i) {
+    const double distance = apart(group.features.col(static_cast<Eigen::Index>(i)), feature);
+    found.push_back({group.codes[i], distance, strokes, i});
+  }
+  return found;
+}
+
+std::optional<CharacterFeatures::Neighbour> CharacterFeatures::nearest(const CharacterFeature& feature,
+                                                                       char32_t except) const {
+  Neighbour nearest;
+  for (const Neighbour& each : neighbours(feature)) {
+    if (each.code != except && each.distance < nearest.distance) nearest = each;
+  }
+  return nearest.code != 0 ? std::optional(nearest) : std::nullopt;
+}
+
+CharacterFeature CharacterFeatures::feature(const Neighbour& neighbour) const {
+  return groups_[neighbour.strokes].features.col(static_cast<Eigen::Index>(neighbour.index));
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,77 @@
+#include "other_character.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace calligraphy {
+namespace {
+
+// By how much the writing is nearer to the other character: of the way from the middle to it, and, since a careless
+// hand needs more evidence than a neat one, of its own distance from the other one, for a single stroke.
+constexpr double clear = 0.2, carelessness = 0.3;
+constexpr double lookalike_apart = 0.06;  // of two characters that hardly differ [em]
+constexpr double same_apart = 0.01;       // of two characters that are drawn alike [em]
+
+/// The points of a stroke.
+using StrokePoints = Eigen::Matrix<float, points_in_stroke, 2, Eigen::RowMajor>;
+
+/// The rotation in a map without reflection: of all rotations the nearest one.
+Eigen::Matrix2d rotation_of(const Eigen::Matrix2d& map) {
+  return Eigen::Rotation2Dd(std::atan2(map(1, 0) - map(0, 1), map(0, 0) + map(1, 1))).toRotationMatrix();
+}
+
+/// With strokes in the order and direction in which pen-downs are read as strokes of the character that was asked for;
+/// empty unless each wrote one.
+CharacterFeature as_read(const CharacterFeature& feature, const StrokeReading& reading) {
+  CharacterFeature read(feature.size());
+  for (const ReadingStep& step : reading.steps) {
+    if (step.paths != 1 || step.strokes != 1) return {};
+    StrokePoints points = StrokePoints::Map(feature.data() + step.path * StrokePoints::SizeAtCompileTime);
+    if (reading.pair(step).backwards) points = points.colwise().reverse().eval();
+    StrokePoints::Map(read.data() + step.stroke * StrokePoints::SizeAtCompileTime) = points;
+  }
+  return read;
+}
+
+}  // namespace
+
+std::optional<OtherCharacter> other_character(const CharacterFeatures& characters, char32_t asked_for,
+                                              const StrokeOutlines& strokes, std::span<const PenPath> paths,
+                                              const StrokeReading& reading) {
+  if (paths.size() != strokes.count() || paths.empty()) return std::nullopt;
+  std::vector<Outline> wanted;
+  for (std::size_t stroke = 0; stroke < strokes.count(); ++stroke) wanted.push_back(strokes.run(stroke, 1).line);
+  const CharacterFeature asked = character_feature(wanted);
+  CharacterFeatures::Neighbour nearest;
+  double from_asked = std::numeric_limits<double>::infinity(), from_asked_as_read = from_asked;
+  // Upright as the reading has it, and as it is: the reading of another character may turn it wrongly.
+  const Eigen::Matrix2d as_it_is = Eigen::Matrix2d::Identity();
+  for (const Eigen::Matrix2d& turn : {rotation_of(reading.costs->fit().linear), as_it_is}) {
+    std::vector<Outline> drawn;
+    for (const PenPath& path : paths) drawn.push_back(outline(path) * turn.transpose());
+    const CharacterFeature writing = character_feature(drawn), read = as_read(writing, reading);
+    const auto near = characters.nearest(writing, asked_for);
+    if (near && near->distance < nearest.distance) nearest = *near;
+    from_asked = std::min(from_asked, apart(writing, asked));
+    if (read.size() > 0) from_asked_as_read = std::min(from_asked_as_read, apart(read, asked));
+  }
+  if (nearest.code == 0) return std::nullopt;
+  const double doubt = carelessness * nearest.distance / std::sqrt(static_cast<double>(strokes.count()));
+  // Along the line from one character to the other, which are so far apart.
+  const auto is_clear = [&](double from_one, double between) {
+    const double beyond_middle = (from_one * from_one - nearest.distance * nearest.distance) / (2.0 * between);
+    return beyond_middle > clear * 0.5 * between + doubt;
+  };
+  const CharacterFeature other = characters.feature(nearest), other_as_read = as_read(other, reading);
+  const double between = apart(asked, other);
+  if (between < same_apart || !is_clear(from_asked, between)) return std::nullopt;
+  if (other_as_read.size() > 0 && !is_clear(from_asked_as_read, apart(asked, other_as_read))) return std::nullopt;
+  return OtherCharacter{nearest.code, between < lookalike_apart};
+}
+
+}  // namespace calligraphy
