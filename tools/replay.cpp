@@ -35,6 +35,7 @@ struct ReplayArguments {
   std::vector<std::string> characters;
   std::string out;
   std::optional<std::string> only;
+  std::string order;
   std::string device = "simulated:desktop";
   std::string renderer = "default";
   PageChoice page;
@@ -93,14 +94,17 @@ class ReplayRun {
     const CharacterSet set =
         options_.only ? open_characters(options_.characters, text).set : open_sources(options_.characters, text);
     for (const char32_t code : text) {
-      if (!set.find(code)) report_.without_template += code;
+      if (accepted_forms(set, code).empty()) report_.without_template += code;
     }
     const CharacterIndex index(set);
     if (options_.recognise) recognise(traces, index);
     if (report_.without_template == text && !options_.recognise)
-      throw Error("none of the written characters is in the character set (see --characters), for example " +
-                  character_label(text.front()));
-    const auto has_template = [&set](const Chosen& each) { return set.find(each.trace.character).has_value(); };
+      throw Error("none of the written characters is in the character set" +
+                  (options_.order.empty() ? "" : " in the order or from the source \"" + options_.order + "\"") +
+                  " (see --characters), for example " + character_label(text.front()));
+    const auto has_template = [this](const Chosen& each) {
+      return report_.without_template.find(each.trace.character) == report_.without_template.npos;
+    };
     const auto with_template = static_cast<std::size_t>(std::count_if(traces.begin(), traces.end(), has_template));
     const Interrupt interrupt;
     std::optional<OutputDirectory> out;
@@ -108,8 +112,8 @@ class ReplayRun {
     Progress progress;
     for (std::size_t i = 0; i < traces.size(); ++i) {
       if (interrupt.asked()) break;
-      const auto stored = set.find(traces[i].trace.character);
-      if (stored) replay_one(traces[i], stored->character(), index, out);
+      const std::vector<StoredCharacter> forms = accepted_forms(set, traces[i].trace.character);
+      if (!forms.empty()) replay_one(traces[i], forms, index, out);
       progress.show(static_cast<double>(i + 1) / static_cast<double>(traces.size()));
     }
     if (report_.traces.empty()) interrupt.check();
@@ -122,6 +126,16 @@ class ReplayRun {
   }
 
  private:
+  /// Those of the order or source that was asked for, or all.
+  std::vector<StoredCharacter> accepted_forms(const CharacterSet& set, char32_t code) const {
+    std::vector<StoredCharacter> forms = set.forms(code);
+    const std::string& name = options_.order;
+    std::erase_if(forms, [&name](const StoredCharacter& form) {
+      return form.order() != name && !form.provenance().source.starts_with(name);
+    });
+    return forms;
+  }
+
   void recognise(const std::vector<Chosen>& traces, const CharacterIndex& index) {
     for (const Chosen& each : traces) {
       report_.recognised.push_back(
@@ -129,18 +143,25 @@ class ReplayRun {
     }
   }
 
-  void replay_one(const Chosen& chosen, const Character& character, const CharacterIndex& index,
+  void replay_one(const Chosen& chosen, const std::vector<StoredCharacter>& forms, const CharacterIndex& index,
                   const std::optional<OutputDirectory>& out) {
+    std::vector<Character> accepted;
+    for (const StoredCharacter& form : forms) accepted.push_back(form.character());
+    const std::vector<PenPath> paths = pen_paths(chosen.trace);
+    Replayed result;
+    result.match = match_strokes(accepted, paths, {}, &index);
+    const auto read_as = static_cast<std::size_t>(result.match.accepted);
+    const Character& character = accepted[read_as];
+    result.order = std::string(forms[read_as].order());
+    result.source = forms[read_as].provenance().source;
+    result.accepted = forms.size();
     const PracticePage page = lay_out({&character, 1}, layout_).front();
     const HapticRenderer renderer(page.characters, *session_.mapping, session_.device, session_.renderer);
     report_.max_force_step = renderer.max_force_step();
 
     const Recording recording = follow_trace(page, chosen.trace, session_);
-    const std::vector<PenPath> paths = pen_paths(chosen.trace);
-    Replayed result;
     result.position = chosen.position;
     result.set = chosen.trace.set;
-    result.match = match_strokes(character, paths, {}, &index);
     std::vector<PenKinematics> motions;
     for (const PenStroke& stroke : chosen.trace.strokes) motions.push_back(pen_kinematics(stroke));
     result.motion = writing_motion(motions);
@@ -185,6 +206,11 @@ void add_replay(CLI::App& program) {
   add_characters_option(*command, options->characters);
   add_out_directory(*command, options->out, "pictures and JSON");
   command->add_option("--only", options->only, "Replay only traces of these characters")->type_name("TEXT");
+  command
+      ->add_option("--order", options->order,
+                   "Accept only this alternate stroke order, or this source (default: every order and form that the "
+                   "sets have)")
+      ->type_name("NAME");
   add_device_option(*command, options->device);
   add_page_options(*command, options->page);
   command->add_option("--renderer", options->renderer, "Default stages, or the optional stages enabled too")

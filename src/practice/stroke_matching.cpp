@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
 
 #include "other_character.hpp"
 #include "require_paths.hpp"
@@ -75,11 +78,58 @@ void find_attempt(DrawnStroke& drawn, std::size_t path, const StrokeReading& rea
   }
 }
 
-void require_valid(const Character& character) {
-  const std::vector<ValidationIssue> problems = validate(character);
-  if (!problems.empty()) {
-    throw ValueError("the character's stroke " + std::to_string(problems[0].stroke) + ": " + problems[0].what);
+void require_valid(std::span<const Character> accepted) {
+  if (accepted.empty()) throw ValueError("no character to match with");
+  for (const Character& character : accepted) {
+    const std::vector<ValidationIssue> problems = validate(character);
+    if (!problems.empty()) {
+      throw ValueError("the character's stroke " + std::to_string(problems[0].stroke) + ": " + problems[0].what);
+    }
+    if (character.code != accepted.front().code) {
+      throw ValueError("accepted forms: expected those of one character, got " + encode_utf8(accepted.front().code) +
+                       " and " + encode_utf8(character.code));
+    }
   }
+}
+
+/// The pen-downs read as one of the accepted forms; without remarks.
+struct Matched {
+  std::unique_ptr<const StrokeOutlines> outlines;  ///< to which the costs of the reading refer
+  StrokeReading reading;
+  MatchResult result;
+  double price = 0.0;  ///< of the reading [em]
+};
+
+Matched match_one(const Character& character, std::span<const PenPath> steady, const StrokeTolerances& tolerances) {
+  Matched matched;
+  matched.outlines = std::make_unique<const StrokeOutlines>(character);
+  const StrokeOutlines& outlines = *matched.outlines;
+  StrokeReading& reading = matched.reading;
+  reading = read_strokes(character, outlines, steady, tolerances);
+  prefer_corrections(reading);
+  MatchResult& match = matched.result;
+  match.fit = reading.costs->fit();
+  match.drawn.resize(steady.size());
+  for (const ReadingStep& step : reading.steps) {
+    for (std::size_t path = step.path; path < step.path + step.paths; ++path) {
+      DrawnStroke& drawn = match.drawn[path];
+      drawn.tap = reading.costs->is_tap(path);
+      if (step.strokes > 0) {
+        drawn.stroke = static_cast<int>(step.stroke);
+        drawn.stroke_count = static_cast<int>(step.strokes);
+        drawn.continues = path > step.path;
+        drawn.direction = direction_of(step, reading, outlines, tolerances);
+        drawn.length = length_share(step, reading, outlines);
+        drawn.distance = distance_of(step, reading, outlines);
+      } else {
+        find_attempt(drawn, path, reading, outlines, tolerances);
+      }
+    }
+  }
+  set_in_turn(match.drawn);
+  const WritingOrder order = find_order(match.drawn);
+  matched.price = reading.price(order.exchanges.size() + order.moved.size());
+  return matched;
 }
 
 }  // namespace
@@ -109,41 +159,30 @@ int MatchResult::count(StrokeRemarkKind kind) const noexcept {
                                         [kind](const StrokeRemark& remark) { return remark.kind == kind; }));
 }
 
-MatchResult match_strokes(const Character& character, std::span<const PenPath> paths,
+MatchResult match_strokes(std::span<const Character> accepted, std::span<const PenPath> paths,
                           const StrokeTolerances& tolerances, const CharacterIndex* others) {
-  require_valid(character);
+  require_valid(accepted);
   require_paths(paths);
   validate(tolerances);
   const double spacing = pen_spacing * shortening(paths);
   std::vector<PenPath> steady;
   for (const PenPath& path : paths) steady.push_back(without_jitter(path, spacing));
-  const StrokeOutlines outlines(character);
-  StrokeReading reading = read_strokes(character, outlines, steady, tolerances);
-  prefer_corrections(reading);
-  MatchResult match;
-  match.fit = reading.costs->fit();
-  match.drawn.resize(paths.size());
-  for (const ReadingStep& step : reading.steps) {
-    for (std::size_t path = step.path; path < step.path + step.paths; ++path) {
-      DrawnStroke& drawn = match.drawn[path];
-      drawn.tap = reading.costs->is_tap(path);
-      if (step.strokes > 0) {
-        drawn.stroke = static_cast<int>(step.stroke);
-        drawn.stroke_count = static_cast<int>(step.strokes);
-        drawn.continues = path > step.path;
-        drawn.direction = direction_of(step, reading, outlines, tolerances);
-        drawn.length = length_share(step, reading, outlines);
-        drawn.distance = distance_of(step, reading, outlines);
-      } else {
-        find_attempt(drawn, path, reading, outlines, tolerances);
-      }
-    }
+  Matched best;
+  for (std::size_t i = 0; i < accepted.size(); ++i) {
+    Matched next = match_one(accepted[i], steady, tolerances);
+    next.result.accepted = static_cast<int>(i);
+    if (i == 0 || next.price < best.price) best = std::move(next);
   }
-  set_in_turn(match.drawn);
+  const Character& character = accepted[static_cast<std::size_t>(best.result.accepted)];
   std::optional<OtherCharacter> other;
-  if (others) other = other_character(others->features(), character.code, outlines, steady, reading);
-  match.remarks = remarks_on(character, paths, match.drawn, match.fit, other);
-  return match;
+  if (others) other = other_character(others->features(), character.code, *best.outlines, steady, best.reading);
+  best.result.remarks = remarks_on(character, paths, best.result.drawn, best.result.fit, other);
+  return std::move(best.result);
+}
+
+MatchResult match_strokes(const Character& character, std::span<const PenPath> paths,
+                          const StrokeTolerances& tolerances, const CharacterIndex* others) {
+  return match_strokes({&character, 1}, paths, tolerances, others);
 }
 
 }  // namespace calligraphy

@@ -20,6 +20,7 @@ namespace calligraphy {
 namespace {
 
 constexpr double min_doubt = 0.03;      // that another order or another place must save at least [em]
+constexpr double careless = 2.0;        // mean costs of this hand that another order must save, or factor
 constexpr double max_substitute = 0.7;  // cost of a pair that is told rather than both left over [em]
 constexpr double max_attempt = 0.08, attempt_share = 0.25;  // cost of an attempt [em], and of that of the other stroke
 constexpr int max_refits = 5;
@@ -333,6 +334,10 @@ const PairCost& StrokeReading::pair(const ReadingStep& step) const {
 double StrokeReading::mean_cost() const {
   const std::size_t most = std::max(costs->paths(), costs->strokes());
   return most > 0 ? cost / static_cast<double>(most) : 0.0;
+}
+
+double StrokeReading::price(std::size_t out_of_order) const {
+  return cost + static_cast<double>(out_of_order) * std::max(min_doubt, careless * mean_cost());
 }
 
 StrokeReading read_strokes(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths,

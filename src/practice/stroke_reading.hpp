@@ -39,6 +39,9 @@ struct StrokeReading {
   const PairCost& pair(const ReadingStep& step) const;
   /// The mean cost of a pen-down or a stroke: large of a careless hand.
   double mean_cost() const;
+  /// What it takes to believe this reading, in which so many strokes were written out of order: to choose among several
+  /// orders or forms that are accepted [em].
+  double price(std::size_t out_of_order) const;
 };
 
 /// The reading of least cost; another order than the right one only where it fits clearly better: by

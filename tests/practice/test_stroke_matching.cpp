@@ -705,6 +705,50 @@ TEST_CASE("another order is told where it fits better by the factor of the toler
   CHECK_FALSE(told_swapped(3.5, certain));
 }
 
+TEST_CASE("of several accepted orders the one is taken in which the strokes were written", "[practice]") {
+  const Character three = character_of("三");
+  std::vector<StrokeInput> inputs;
+  for (const Stroke& stroke : strokes(three)) inputs.push_back(input_of(stroke));
+  std::swap(inputs[0], inputs[2]);
+  Character other = make_character(three.code, inputs);
+  other.order = "from below";
+  const std::vector<Character> accepted = {three, other};
+  std::vector<PenPath> drawn = copy_of(three);
+  MatchResult match = match_strokes(accepted, drawn);
+  CHECK(match.accepted == 0);
+  CHECK(match.remarks.empty());
+  std::reverse(drawn.begin(), drawn.end());
+  match = match_strokes(accepted, drawn);
+  CHECK(match.accepted == 1);
+  CHECK(match.remarks.empty());
+  CHECK(match_strokes(three, drawn).count(StrokeRemarkKind::order) == 1);
+  std::swap(drawn[0], drawn[1]);  // neither: two strokes out of order in one, two in the other
+  CHECK(match_strokes(accepted, drawn).count(StrokeRemarkKind::order) == 1);
+}
+
+TEST_CASE("another accepted form excuses no mistake that it has not", "[practice]") {
+  // The other form of 十 begins with the shu. Its order is accepted, but not a stroke from its end.
+  const Character ten = character_of("十");
+  std::vector<StrokeInput> inputs;
+  for (const Stroke& stroke : strokes(ten)) inputs.push_back(input_of(stroke));
+  std::swap(inputs[0], inputs[1]);
+  const std::vector<Character> accepted = {ten, make_character(ten.code, inputs)};
+  std::vector<PenPath> drawn = copy_of(ten);
+  std::swap(drawn[0], drawn[1]);
+  reverse(drawn[1]);
+  const MatchResult match = match_strokes(accepted, drawn);
+  CHECK(match.accepted == 1);
+  REQUIRE(match.remarks.size() == 1);
+  CHECK(match.remarks[0].kind == StrokeRemarkKind::direction);
+  CHECK(match.remarks[0].stroke == 1);  // of the form as which it was read
+}
+
+TEST_CASE("accepted forms must be there, and of one character", "[practice]") {
+  const std::vector<Character> two = {character_of("三"), character_of("十")};
+  CHECK_THROWS_WITH(match_strokes(two, {}), "accepted forms: expected those of one character, got 三 and 十");
+  CHECK_THROWS_AS(match_strokes(std::vector<Character>(), std::vector<PenPath>()), ValueError);
+}
+
 TEST_CASE("a wrong tolerance is refused by name", "[practice]") {
   const Character ten = character_of("十");
   const auto refused = [&](double StrokeTolerances::*field, double value, const std::string& message) {

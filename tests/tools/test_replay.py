@@ -89,6 +89,39 @@ class Replay(ReplayTest):
         one, two, three = THREE
         self.assertEqual(self.remarks(character("三", [one, two[::-1], three])), [[("direction", 2, 2)]])
 
+    def test_another_character_is_told_instead_of_its_strokes(self):
+        ((remark,),) = [trace["remarks"] for trace in self.replay(character("二", TEN))["traces"]]
+        self.assertEqual((remark["kind"], remark["other_character"]), ("character", "十"))
+        table = self.run_program("replay", self.traces(character("二", TEN))).stdout
+        self.assertIn("another character", table)
+
+    def test_what_was_written_is_looked_up_on_request(self):
+        report = self.replay(character("龘", TEN), character("三", THREE), options=("--recognise",))
+        self.assertEqual([each["resembles"][0]["character"] for each in report["recognised"]], ["十", "三"])
+        self.assertNotIn("recognised", self.replay(character("三", THREE)))
+        table = self.run_program("replay", self.traces(character("龘", TEN)), "--recognise").stdout
+        self.assertIn("1 龘  resembles: 十 0.0", table)
+
+    def test_every_form_of_the_sets_is_accepted_unless_one_is_asked_for(self):
+        provenance = "source {}\nlicence MIT\nattribution this test\n"
+        (heng, shu) = ("stroke 1 0.1,0.5 0.9,0.53\n", "stroke 2 0.5,0.92 0.5,0.06\n")
+        text = "calligraphy characters 2\n" + provenance
+        (self.directory / "one.txt").write_text(text.format("One") + "character 十\n" + heng + shu)
+        (self.directory / "two.txt").write_text(text.format("Two") + "character 十\n" + shu + heng +
+                                                "character 十 order Kaisho\n" + heng + shu)
+        sets = ("--characters", "one.txt", "--characters", "two.txt")
+        swapped = character("十", TEN[::-1])
+        (trace,) = self.replay(swapped, options=sets)["traces"]
+        self.assertEqual((trace["remarks"], trace["source"], trace["accepted_forms"]), ([], "Two", 3))
+        for order, source, mistakes, accepted in (("One", "One", 1, 1), ("Kaisho", "Two", 1, 1), ("Two", "Two", 0, 2)):
+            (trace,) = self.replay(swapped, options=(*sets, "--order", order))["traces"]
+            self.assertEqual((trace["source"], trace["order_mistakes"], trace["accepted_forms"]),
+                             (source, mistakes, accepted))
+        table = self.run_program("replay", self.traces(swapped), *sets).stdout
+        self.assertIn("read as Two: 1 十", table)
+        refused = self.run_program("replay", self.traces(swapped), *sets, "--order", "Three", code=1)
+        self.assertIn('from the source "Three"', refused.stderr)
+
     def test_results_up_to_ctrl_c_are_saved(self):
         self.traces(*[character("三", THREE)] * 2000)
         printed, told = self.interrupted("replay", "pens.txt", "--out", "out", once="out/01-三.svg")

@@ -252,6 +252,14 @@ void add_model(py::module_& module) {
           },
           "Every character once, as a str, in ascending code point order.")
       .def("orders", &CharacterSet::orders, "code"_a)
+      .def(
+          "forms",
+          [](const CharacterSet& self, char32_t code) {
+            std::vector<Character> forms;
+            for (const StoredCharacter& form : self.forms(code)) forms.push_back(form.character());
+            return forms;
+          },
+          "code"_a)
       .def("provenances", &CharacterSet::provenances)
       .def("coordinate_error", &CharacterSet::coordinate_error)
       .def("list", released(+[](const CharacterSet& self) { return self.list(); }))

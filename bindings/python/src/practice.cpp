@@ -1,6 +1,8 @@
 // Pages, writers, recordings, scores, imports and pictures.
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/replay_device.hpp>
+#include <variant>
+
 #include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/pictures/picture.hpp>
 #include <calligraphy/practice/dtw_distance.hpp>
@@ -73,9 +75,18 @@ std::vector<PenPath> paths_of(const std::vector<ArrayLike>& paths) {
   return drawn;
 }
 
-MatchResult match_of(const Character& character, const std::vector<ArrayLike>& paths,
-                     const StrokeTolerances& tolerances, const CharacterIndex* others) {
-  return released(&match_strokes)(character, paths_of(paths), tolerances, others);
+/// One character, or several forms of one.
+using Accepted = std::variant<Character, std::vector<Character>>;
+
+MatchResult match_of(const Accepted& character, const std::vector<ArrayLike>& paths, const StrokeTolerances& tolerances,
+                     const CharacterIndex* others) {
+  const auto* const one = std::get_if<Character>(&character);
+  const std::span<const Character> accepted =
+      one ? std::span(one, 1) : std::span<const Character>(std::get<std::vector<Character>>(character));
+  const std::vector<PenPath> drawn = paths_of(paths);
+  const StrokeTolerances chosen = tolerances;
+  const py::gil_scoped_release release;
+  return match_strokes(accepted, drawn, chosen, others);
 }
 
 using Arrays = py::typing::List<Doubles>;
@@ -171,7 +182,8 @@ void add_practice(py::module_& module) {
           },
           "paths"_a, "most"_a = 10, "+ Each path is an array (n, 2).");
   module.def("match_strokes", &match_of, "character"_a, "paths"_a, "tolerances"_a = StrokeTolerances(),
-             "others"_a = py::none(), "+ Each path is an array (n, 2) [em].");
+             "others"_a = py::none(),
+             "+ Each path is an array (n, 2) [em]. Several accepted forms are a list of characters.");
 
   module.def(
       "pen_kinematics",

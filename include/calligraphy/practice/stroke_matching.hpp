@@ -71,6 +71,7 @@ struct MatchResult {
   std::vector<DrawnStroke> drawn;     ///< one per pen-down, in the order of writing
   std::vector<StrokeRemark> remarks;  ///< of the whole, then by pen-down, then missing strokes; one for each fault
   AffineMap fit;                      ///< maps the pen-downs onto the character
+  int accepted = 0;                   ///< of several forms that were accepted, the one as which it was read
 
   /// Number of remarks of a kind.
   int count(StrokeRemarkKind kind) const noexcept;
@@ -90,6 +91,13 @@ struct MatchResult {
 /// @throws ValueError when the character or a tolerance is invalid, there are more than 1000 paths, or one is empty,
 /// not finite or more than 1e9 em away
 MatchResult match_strokes(const Character& character, std::span<const PenPath> paths,
+                          const StrokeTolerances& tolerances = {}, const CharacterIndex* others = nullptr);
+
+/// The same with several stroke orders or forms of one character that are accepted, as CharacterSet::forms() has them:
+/// the one is taken that excuses least. Its price is the cost of the reading, and for each stroke or block out of order
+/// twice the mean cost of this hand, or 3 % of the em if that is more.
+/// @throws ValueError also when there is none, or they are of different characters
+MatchResult match_strokes(std::span<const Character> accepted, std::span<const PenPath> paths,
                           const StrokeTolerances& tolerances = {}, const CharacterIndex* others = nullptr);
 
 }  // namespace calligraphy
