@@ -36,6 +36,7 @@ struct ReplayArguments {
   std::string out;
   std::optional<std::string> only;
   std::string order;
+  std::string leniency = "normal";
   std::string device = "simulated:desktop";
   std::string renderer = "default";
   PageChoice page;
@@ -136,6 +137,11 @@ class ReplayRun {
     return forms;
   }
 
+  StrokeTolerances tolerances() const {
+    if (options_.leniency == "lenient") return StrokeTolerances::lenient();
+    return options_.leniency == "strict" ? StrokeTolerances::strict() : StrokeTolerances::normal();
+  }
+
   void recognise(const std::vector<Chosen>& traces, const CharacterIndex& index) {
     for (const Chosen& each : traces) {
       report_.recognised.push_back(
@@ -149,7 +155,7 @@ class ReplayRun {
     for (const StoredCharacter& form : forms) accepted.push_back(form.character());
     const std::vector<PenPath> paths = pen_paths(chosen.trace);
     Replayed result;
-    result.match = match_strokes(accepted, paths, {}, &index);
+    result.match = match_strokes(accepted, paths, tolerances(), &index);
     const auto read_as = static_cast<std::size_t>(result.match.accepted);
     const Character& character = accepted[read_as];
     result.order = std::string(forms[read_as].order());
@@ -211,6 +217,11 @@ void add_replay(CLI::App& program) {
                    "Accept only this alternate stroke order, or this source (default: every order and form that the "
                    "sets have)")
       ->type_name("NAME");
+  command
+      ->add_option("--leniency", options->leniency,
+                   "How sure or grave a remark must be: strict tells what normal does and more, lenient less")
+      ->check(CLI::IsMember({"strict", "normal", "lenient"}))
+      ->capture_default_str();
   add_device_option(*command, options->device);
   add_page_options(*command, options->page);
   command->add_option("--renderer", options->renderer, "Default stages, or the optional stages enabled too")

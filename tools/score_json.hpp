@@ -26,6 +26,7 @@ inline nlohmann::ordered_json remark_json(const StrokeRemark& remark) {
           {"other_stroke", number(remark.other_stroke)},
           {"other_character", remark.other_character ? Json(encode_utf8(remark.other_character)) : Json()},
           {"place_em", {remark.place.x(), remark.place.y()}},
+          {"evidence", remark.evidence},  // null: always told
           {"reason", remark.reason}};
 }
 

@@ -12,9 +12,12 @@ namespace calligraphy {
 double length_share(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes);
 inline constexpr double least_share = 0.35, sure_length = 0.2;  // [1], [em]
 
-/// Direction in which what a step takes was written, as far as `tolerances.direction` and the length of the stroke
-/// allow.
-WritingDirection direction_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes,
-                              const StrokeTolerances& tolerances);
+struct StrokeDirection {
+  WritingDirection direction = WritingDirection::unknown;
+  double evidence = 0.0;  ///< that it is wrong, or the shape: at least 1 unless it runs forwards
+};
+
+/// Direction in which what a step takes was written, as far as its length allows to tell.
+StrokeDirection direction_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes);
 
 }  // namespace calligraphy

@@ -65,12 +65,11 @@ double distance_of(const ReadingStep& step, const StrokeReading& reading, const 
 }
 
 /// What a pen-down that wrote nothing attempted: the stroke that it resembles most, along or against which it runs.
-void find_attempt(DrawnStroke& drawn, std::size_t path, const StrokeReading& reading, const StrokeOutlines& strokes,
-                  const StrokeTolerances& tolerances) {
+void find_attempt(DrawnStroke& drawn, std::size_t path, const StrokeReading& reading, const StrokeOutlines& strokes) {
   double least = left_over_cost;
   for (std::size_t stroke = 0; stroke < strokes.count() && !drawn.tap; ++stroke) {
     const double cost = reading.costs->single(path, stroke).cost;
-    const WritingDirection direction = direction_of({path, 1, stroke, 1, cost}, reading, strokes, tolerances);
+    const WritingDirection direction = direction_of({path, 1, stroke, 1, cost}, reading, strokes).direction;
     if (cost > least || direction == WritingDirection::neither) continue;
     least = cost;
     drawn.attempt = static_cast<int>(stroke);
@@ -100,12 +99,12 @@ struct Matched {
   double price = 0.0;  ///< of the reading [em]
 };
 
-Matched match_one(const Character& character, std::span<const PenPath> steady, const StrokeTolerances& tolerances) {
+Matched match_one(const Character& character, std::span<const PenPath> steady) {
   Matched matched;
   matched.outlines = std::make_unique<const StrokeOutlines>(character);
   const StrokeOutlines& outlines = *matched.outlines;
   StrokeReading& reading = matched.reading;
-  reading = read_strokes(character, outlines, steady, tolerances);
+  reading = read_strokes(character, outlines, steady);
   prefer_corrections(reading);
   MatchResult& match = matched.result;
   match.fit = reading.costs->fit();
@@ -118,11 +117,13 @@ Matched match_one(const Character& character, std::span<const PenPath> steady, c
         drawn.stroke = static_cast<int>(step.stroke);
         drawn.stroke_count = static_cast<int>(step.strokes);
         drawn.continues = path > step.path;
-        drawn.direction = direction_of(step, reading, outlines, tolerances);
+        const StrokeDirection direction = direction_of(step, reading, outlines);
+        drawn.direction = direction.direction;
+        drawn.evidence = direction.evidence;
         drawn.length = length_share(step, reading, outlines);
         drawn.distance = distance_of(step, reading, outlines);
       } else {
-        find_attempt(drawn, path, reading, outlines, tolerances);
+        find_attempt(drawn, path, reading, outlines);
       }
     }
   }
@@ -169,14 +170,15 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   for (const PenPath& path : paths) steady.push_back(without_jitter(path, spacing));
   Matched best;
   for (std::size_t i = 0; i < accepted.size(); ++i) {
-    Matched next = match_one(accepted[i], steady, tolerances);
+    Matched next = match_one(accepted[i], steady);
     next.result.accepted = static_cast<int>(i);
     if (i == 0 || next.price < best.price) best = std::move(next);
   }
   const Character& character = accepted[static_cast<std::size_t>(best.result.accepted)];
   std::optional<OtherCharacter> other;
   if (others) other = other_character(others->features(), character.code, *best.outlines, steady, best.reading);
-  best.result.remarks = remarks_on(character, paths, best.result.drawn, best.result.fit, other);
+  best.result.remarks = remarks_on(character, paths, best.result.drawn, best.result.fit,
+                                   {best.reading.order_evidence, tolerances.evidence}, other);
   return std::move(best.result);
 }
 

@@ -32,9 +32,8 @@ using Costs = std::shared_ptr<const StrokeCosts>;
 
 class Reader {
  public:
-  Reader(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths,
-         const StrokeTolerances& tolerances)
-      : character_(character), strokes_(strokes), paths_(paths), drawn_(drawn_lines(paths)), tolerances_(tolerances) {}
+  Reader(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths)
+      : character_(character), strokes_(strokes), paths_(paths), drawn_(drawn_lines(paths)) {}
 
   /// From the box of the pen-downs, or from where they are if that fits clearly better at once; then, where there is
   /// something to remark or nothing fits well, from the box turned either way: a slanted hand. Of a single line nobody
@@ -179,7 +178,11 @@ class Reader {
     const auto& [in_order, free] = pair;
     if (free.cost >= in_order.cost) return in_order;
     const double doubt = faults(free) > faults(in_order) ? free.mean_cost() : 0.0;
-    return is_clearly_more(cost_of_others(in_order, free), cost_of_others(free, in_order), doubt) ? free : in_order;
+    const double evidence = evidence_of(cost_of_others(in_order, free), cost_of_others(free, in_order), doubt);
+    if (evidence < 1.0) return in_order;
+    StrokeReading chosen = free;
+    chosen.order_evidence = evidence;
+    return chosen;
   }
 
   /// Pen-downs and strokes that are left over, joined, broken or out of turn.
@@ -195,10 +198,9 @@ class Reader {
   }
 
   /// A careless hand needs more evidence for another order than a neat one; small strokes are told apart by the factor.
-  bool is_clearly_more(double cost, double other, double mean_cost) const {
-    if (std::isinf(tolerances_.distinction)) return false;
-    return cost - other >= std::max(min_doubt, tolerances_.distinction * mean_cost) ||
-           (cost > other && cost >= tolerances_.distinction * other);
+  static double evidence_of(double cost, double other, double mean_cost) {
+    if (cost <= other) return 0.0;
+    return std::max((cost - other) / std::max(min_doubt, careless * mean_cost), cost / (careless * other));
   }
 
   bool is_unremarkable(const StrokeReading& reading) const {
@@ -207,7 +209,7 @@ class Reader {
       if (step.strokes == 0 && reading.costs->is_tap(step.path)) continue;
       if (step.paths != 1 || step.strokes != 1 || step.path < next) return false;
       next = step.path;
-      const WritingDirection direction = direction_of(step, reading, strokes_, tolerances_);
+      const WritingDirection direction = direction_of(step, reading, strokes_).direction;
       if (direction == WritingDirection::backwards || direction == WritingDirection::neither) return false;
     }
     return true;
@@ -277,7 +279,7 @@ class Reader {
         now_cost += costs.single(paths[i], written[i]).cost;
         other_cost += costs.single(paths[i], other[i]).cost;
       }
-      if (is_clearly_more(other_cost, now_cost, mean_cost * static_cast<double>(then - in_turn))) return false;
+      if (evidence_of(other_cost, now_cost, mean_cost * static_cast<double>(then - in_turn)) >= 1.0) return false;
       written = other;
       in_turn = then;
       return true;
@@ -319,7 +321,6 @@ class Reader {
   const StrokeOutlines& strokes_;
   const std::span<const PenPath> paths_;
   const std::vector<DrawnLine> drawn_;
-  const StrokeTolerances& tolerances_;
   long comparisons_ = 0;
 };
 
@@ -340,9 +341,8 @@ double StrokeReading::price(std::size_t out_of_order) const {
   return cost + static_cast<double>(out_of_order) * std::max(min_doubt, careless * mean_cost());
 }
 
-StrokeReading read_strokes(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths,
-                           const StrokeTolerances& tolerances) {
-  return Reader(character, strokes, paths, tolerances).read();
+StrokeReading read_strokes(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths) {
+  return Reader(character, strokes, paths).read();
 }
 
 }  // namespace calligraphy

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include <calligraphy/practice/pen_path.hpp>
-#include <calligraphy/render/stroke_tolerances.hpp>
 
 #include "stroke_costs.hpp"
 #include "stroke_outlines.hpp"
@@ -34,6 +34,8 @@ struct StrokeReading {
   double cost = 0.0;                         ///< of all steps, before what was left over was paired
   std::shared_ptr<const StrokeCosts> costs;  ///< at the fit of this reading
   long comparisons = 0;                      ///< of a pen-down with strokes, that led to it
+  /// That strokes were written in another order, if they were: 1 where it is just believed.
+  double order_evidence = std::numeric_limits<double>::infinity();
 
   /// Of a step that is_written().
   const PairCost& pair(const ReadingStep& step) const;
@@ -44,9 +46,8 @@ struct StrokeReading {
   double price(std::size_t out_of_order) const;
 };
 
-/// The reading of least cost; another order than the right one only where it fits clearly better: by
-/// `tolerances.distinction` times the mean cost of this hand, or by that factor where the two orders differ.
-StrokeReading read_strokes(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths,
-                           const StrokeTolerances& tolerances);
+/// The reading of least cost; another order than the right one only where it fits clearly better: by twice the mean
+/// cost of this hand, or by that factor where the two orders differ.
+StrokeReading read_strokes(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths);
 
 }  // namespace calligraphy

@@ -84,18 +84,23 @@ void see_what_was_begun(DrawnStroke& drawn, const PenPath& path, const AffineMap
   const Point begun = fit.linear * (path.back() - path.front());
   drawn.direction =
       begun.dot(ends.back() - ends.front()) >= 0.0 ? WritingDirection::forwards : WritingDirection::backwards;
+  drawn.evidence = drawn.direction == WritingDirection::forwards ? 0.0 : 1.0;
 }
 
 /// Takes out what was only supposed, all but the paths that were drawn: their strokes are missing.
 void take_back(MatchResult& result, std::span<const PenPath> paths, const Character& character,
-               const std::vector<PenPath>& lines) {
+               const std::vector<PenPath>& lines, double least_evidence) {
   result.drawn.resize(paths.size());
   DrawnStroke& last = result.drawn.back();
   if (last.stroke >= 0) {
     see_what_was_begun(last, paths.back(), result.fit, lines[static_cast<std::size_t>(last.stroke)]);
   }
   set_in_turn(result.drawn);
-  result.remarks = remarks_on(character, paths, result.drawn, result.fit);
+  double of_order = std::numeric_limits<double>::infinity();
+  for (const StrokeRemark& remark : result.remarks) {
+    if (remark.kind == StrokeRemarkKind::order) of_order = remark.evidence;
+  }
+  result.remarks = remarks_on(character, paths, result.drawn, result.fit, {of_order, least_evidence});
 }
 
 /// Of the ways to suppose the rest of a character, the one that leaves the least to remark.
@@ -110,7 +115,7 @@ MatchResult match_supposing(const Character& character, std::span<const PenPath>
     std::vector<PenPath> supposed(paths.begin(), paths.end());
     supposed.back() = last;
     supposed.insert(supposed.end(), lines.begin() + static_cast<std::ptrdiff_t>(count), lines.end());
-    MatchResult result = match_strokes(character, supposed, tolerances);
+    MatchResult result = match_strokes(character, supposed);
     const double doubt = cost(result, paths, lines, count);
     if (doubt >= least) return;
     least = doubt;
@@ -125,7 +130,7 @@ MatchResult match_supposing(const Character& character, std::span<const PenPath>
     }
     suppose(count, paths.back());
   }
-  take_back(best, paths, character, lines);
+  take_back(best, paths, character, lines, tolerances.evidence);
   return best;
 }
 

@@ -14,6 +14,7 @@ void validate(const StrokeTolerances& tolerances) {
   require_above_zero("tolerances.corridor", tolerances.corridor, "em");
   require_within("tolerances.coverage", tolerances.coverage, "", 0.0, 1.0);
   require_not_negative("tolerances.slack", tolerances.slack, "em");
+  require_above_zero("tolerances.evidence", tolerances.evidence, "");
 }
 
 }  // namespace calligraphy

@@ -14,11 +14,11 @@ using namespace calligraphy;
 
 namespace {
 
-double comparisons(const Case& each, const StrokeTolerances& tolerances) {
+double comparisons(const Case& each) {
   std::vector<PenPath> paths;
   for (const PenPath& path : each.corrupted.paths) paths.push_back(without_jitter(path, pen_spacing));
   const StrokeOutlines outlines(each.pen->character);
-  const StrokeReading reading = read_strokes(each.pen->character, outlines, paths, tolerances);
+  const StrokeReading reading = read_strokes(each.pen->character, outlines, paths);
   return static_cast<double>(reading.comparisons) / static_cast<double>(paths.size() * outlines.count());
 }
 
@@ -26,7 +26,7 @@ Outcome judge(const Case& each, const StrokeTolerances& tolerances) {
   const MatchResult match = match_strokes(each.pen->character, each.corrupted.paths, tolerances);
   const std::vector<Truth>& truths = each.corrupted.truths;
   const bool told = std::any_of(truths.begin(), truths.end(), [&](const Truth& truth) { return tells(match, truth); });
-  return {told, match.remarks.empty(), comparisons(each, tolerances), describe(match)};
+  return {told, match.remarks.empty(), comparisons(each), describe(match)};
 }
 
 }  // namespace

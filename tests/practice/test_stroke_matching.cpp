@@ -658,27 +658,27 @@ TEST_CASE("a stroke drawn across its direction has another shape and is not repo
   }
 }
 
-TEST_CASE("a slanted stroke runs forwards within the angle of the tolerances", "[practice]") {
+TEST_CASE("a slanted stroke is told beyond the angle that the leniency allows", "[practice]") {
   const Character one = character_of("一");
-  const auto direction = [&](double degrees, const StrokeTolerances& tolerances) {
+  const auto told_shape = [&](double degrees, const StrokeTolerances& tolerances) {
     const double angle = degrees * std::numbers::pi / 180.0;
     const Point middle(0.5, 0.5), arm = 0.3 * Point(std::cos(angle), std::sin(angle));
     const MatchResult match = match_strokes(one, std::vector<PenPath>{line(middle - arm, middle + arm)}, tolerances);
     REQUIRE(match.drawn[0].stroke == 0);
-    CHECK(match.count(StrokeRemarkKind::shape) == (match.drawn[0].direction == WritingDirection::neither));
-    return match.drawn[0].direction;
+    CHECK((match.drawn[0].direction == WritingDirection::neither) == (std::abs(degrees) > 60.0));
+    return match.count(StrokeRemarkKind::shape) == 1;
   };
   for (const StrokeTolerances& tolerances :
        {StrokeTolerances::lenient(), StrokeTolerances::normal(), StrokeTolerances::strict()}) {
-    const double degrees = tolerances.direction * 180.0 / std::numbers::pi;
+    const double degrees = 60.0 * tolerances.evidence;
     for (const double sign : {1.0, -1.0}) {
-      CHECK(direction(sign * (degrees - 8.0), tolerances) == WritingDirection::forwards);
-      CHECK(direction(sign * (degrees + 8.0), tolerances) == WritingDirection::neither);
+      CHECK_FALSE(told_shape(sign * (degrees - 8.0), tolerances));
+      CHECK(told_shape(sign * (degrees + 8.0), tolerances));
     }
   }
 }
 
-TEST_CASE("another order is told where it fits better by the factor of the tolerances", "[practice]") {
+TEST_CASE("another order is told where it fits better by a factor that the leniency sets", "[practice]") {
   // Two short strokes 3 % of the em apart, so little that only the factor tells them apart, in a frame of two long ones
   // that fixes the alignment. Each is drawn between its own place and the other's, at a share x of the way from the
   // other's: the standard order then costs (1 - x) / x times as much as the one in which they are swapped.
@@ -694,15 +694,36 @@ TEST_CASE("another order is told where it fits better by the factor of the toler
     for (Point& point : drawn[2]) point.y() -= (1.0 - share) * apart;
     return match_strokes(character, drawn, tolerances).count(StrokeRemarkKind::order) > 0;
   };
-  for (const StrokeTolerances& tolerances :
-       {StrokeTolerances::lenient(), StrokeTolerances::normal(), StrokeTolerances::strict()}) {
-    CAPTURE(tolerances.distinction);
-    CHECK_FALSE(told_swapped(0.85 * tolerances.distinction, tolerances));
-    CHECK(told_swapped(1.15 * tolerances.distinction, tolerances));
+  for (const StrokeTolerances& tolerances : {StrokeTolerances::lenient(), StrokeTolerances::normal()}) {
+    CAPTURE(tolerances.evidence);
+    CHECK_FALSE(told_swapped(0.85 * 2.0 * tolerances.evidence, tolerances));
+    CHECK(told_swapped(1.15 * 2.0 * tolerances.evidence, tolerances));
   }
-  StrokeTolerances certain;
-  certain.distinction = std::numeric_limits<double>::infinity();
-  CHECK_FALSE(told_swapped(3.5, certain));
+  CHECK_FALSE(told_swapped(1.7, StrokeTolerances::strict()));  // no other order is believed
+  CHECK(told_swapped(2.3, StrokeTolerances::strict()));
+}
+
+TEST_CASE("two strokes joined, and a short part of a stroke, are not told leniently", "[practice]") {
+  const Character three = character_of("三");
+  const StrokeTolerances lenient = StrokeTolerances::lenient();
+  const std::vector<PenPath> copy = copy_of(three);
+  std::vector<PenPath> joined = {copy[0], copy[2]};
+  append(joined[0], copy[1]);
+  CHECK(match_strokes(three, joined).count(StrokeRemarkKind::joined) == 1);
+  CHECK(match_strokes(three, joined, lenient).remarks.empty());
+  std::vector<PenPath> all = {copy[0]};
+  append(all[0], copy[1]);
+  append(all[0], copy[2]);
+  CHECK(match_strokes(three, all, lenient).count(StrokeRemarkKind::joined) == 1);
+  for (const double share : {0.1, 0.4}) {
+    std::vector<PenPath> broken = copy;
+    const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(copy[0].size()));
+    broken[0].erase(broken[0].begin(), broken[0].begin() + at);
+    broken.insert(broken.begin(), PenPath(copy[0].begin(), copy[0].begin() + at + 1));
+    CAPTURE(share);
+    CHECK(match_strokes(three, broken).count(StrokeRemarkKind::broken) == 1);
+    CHECK(match_strokes(three, broken, lenient).count(StrokeRemarkKind::broken) == (share > 0.3));
+  }
 }
 
 TEST_CASE("of several accepted orders the one is taken in which the strokes were written", "[practice]") {
@@ -758,6 +779,7 @@ TEST_CASE("a wrong tolerance is refused by name", "[practice]") {
   };
   refused(&StrokeTolerances::direction, 4.0, "tolerances.direction = 4 rad, must be above 0 and at most 3.14");
   refused(&StrokeTolerances::distinction, 0.5, "tolerances.distinction = 0.5, must be at least 1");
+  refused(&StrokeTolerances::evidence, 0.0, "tolerances.evidence = 0");
   refused(&StrokeTolerances::coverage, 1.5, "tolerances.coverage = 1.5, must be from 0 to 1");
 }
 

@@ -122,6 +122,14 @@ class Replay(ReplayTest):
         refused = self.run_program("replay", self.traces(swapped), *sets, "--order", "Three", code=1)
         self.assertIn('from the source "Three"', refused.stderr)
 
+    def test_the_leniency_sets_what_is_told(self):
+        slanted = character("三", [THREE[0], ((350, 700), (650, 272)), THREE[2]])  # by 55 degrees
+        def told(leniency):
+            (trace,) = self.replay(slanted, options=("--leniency", leniency))["traces"]
+            return {(remark["kind"], remark["stroke"]) for remark in trace["remarks"]}
+        self.assertLessEqual(told("lenient"), told("normal"))
+        self.assertLess(told("normal"), told("strict"))
+
     def test_results_up_to_ctrl_c_are_saved(self):
         self.traces(*[character("三", THREE)] * 2000)
         printed, told = self.interrupted("replay", "pens.txt", "--out", "out", once="out/01-三.svg")

@@ -1,6 +1,7 @@
 // Stroke matching: which stroke each pen-down wrote, in which order and direction, from geometry alone.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ struct DrawnStroke {
   WritingDirection direction = WritingDirection::unknown;  ///< along what it wrote or attempted
   double length = 0.0;                                     ///< over that of what it wrote, once both are aligned [1]
   double distance = 0.0;  ///< mean distance from what it wrote, once both are aligned [em]
+  double evidence = 0.0;  ///< that its direction or shape is wrong (StrokeRemark::evidence) [1]
 };
 
 /// What there is to remark on a stroke or a pen-down.
@@ -63,7 +65,9 @@ struct StrokeRemark {
   int other_stroke = -1;  ///< the stroke that was due, or written before; of an extra pen-down, that it attempts
   char32_t other_character = 0;  ///< that the writing is nearer to; 0: none
   Point place = Point::Zero();   ///< to point at: on what was written, or where a missing stroke belongs beside it [em]
-  std::string reason = {};       ///< one sentence for people
+  /// How sure or how grave it is: 1 where StrokeTolerances::normal() begins to tell it; infinite: always told [1].
+  double evidence = std::numeric_limits<double>::infinity();
+  std::string reason = {};  ///< one sentence for people
 };
 
 /// Result of match_strokes().
@@ -81,10 +85,12 @@ struct MatchResult {
 /// an error of position or size, a slant or a turn of up to some 30 degrees is not a mistake. The cost of a pair is
 /// then the mean distance of points that are as far along, forwards or backwards, plus a penalty for the angle between
 /// them. A pen-down that resembles no stroke is extra; a stroke that no pen-down resembles is missing; a pen-down that
-/// resembles several consecutive strokes has joined them. An order other than the standard one is accepted only where
-/// it fits better by `tolerances.distinction` times the mean cost of this hand, or by that factor; a stroke runs
-/// forwards within the angle `tolerances.direction`. For the steps and the bounds, and how often they are right, see
-/// docs/practice.md. O(readings paths strokes).
+/// resembles several consecutive strokes has joined them. An order other than the standard one is believed only where
+/// it fits better by twice the mean cost of this hand, or by a factor of 2; a stroke runs forwards within 60 degrees.
+/// For the steps and the bounds, and how often they are right, see docs/practice.md. O(readings paths strokes).
+///
+/// `tolerances.evidence` chooses what is told of this: what StrokeTolerances::strict() tells includes what normal()
+/// tells, and that what lenient() does.
 ///
 /// `paths` are in the square of the character; writing from elsewhere is mapped there by fit_box. With `others`, that
 /// the writing is another character of as many strokes is told; one of fewer or more strokes is not recognised.
