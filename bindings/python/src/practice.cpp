@@ -1,8 +1,9 @@
 // Pages, writers, recordings, scores, imports and pictures.
-#include <calligraphy/base/text.hpp>
-#include <calligraphy/devices/replay_device.hpp>
+#include <optional>
 #include <variant>
 
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/pictures/picture.hpp>
 #include <calligraphy/practice/dtw_distance.hpp>
@@ -79,14 +80,14 @@ std::vector<PenPath> paths_of(const std::vector<ArrayLike>& paths) {
 using Accepted = std::variant<Character, std::vector<Character>>;
 
 MatchResult match_of(const Accepted& character, const std::vector<ArrayLike>& paths, const StrokeTolerances& tolerances,
-                     const CharacterIndex* others) {
+                     const std::optional<CharacterIndex>& others) {
   const auto* const one = std::get_if<Character>(&character);
   const std::span<const Character> accepted =
       one ? std::span(one, 1) : std::span<const Character>(std::get<std::vector<Character>>(character));
   const std::vector<PenPath> drawn = paths_of(paths);
   const StrokeTolerances chosen = tolerances;
   const py::gil_scoped_release release;
-  return match_strokes(accepted, drawn, chosen, others);
+  return match_strokes(accepted, drawn, chosen, others ? &*others : nullptr);
 }
 
 using Arrays = py::typing::List<Doubles>;
