@@ -22,11 +22,11 @@ double comparisons(const Case& each) {
   return static_cast<double>(reading.comparisons) / static_cast<double>(paths.size() * outlines.count());
 }
 
-Outcome judge(const Case& each, const StrokeTolerances& tolerances) {
-  const MatchResult match = match_strokes(each.pen->character, each.corrupted.paths, tolerances);
+Outcome judge(const Case& each, const StrokeTolerances& tolerances, const CharacterIndex* others) {
+  const MatchResult match = match_strokes(each.pen->character, each.corrupted.paths, tolerances, others);
   const std::vector<Truth>& truths = each.corrupted.truths;
   const bool told = std::any_of(truths.begin(), truths.end(), [&](const Truth& truth) { return tells(match, truth); });
-  return {told, match.remarks.empty(), comparisons(each), describe(match)};
+  return {told, match.remarks.empty(), other_character(match), comparisons(each), describe(match)};
 }
 
 }  // namespace
@@ -53,10 +53,11 @@ std::vector<Case> cases_of(const std::vector<std::vector<RightPen>>& sources, st
   return cases;
 }
 
-std::vector<Outcome> judge_cases(const std::vector<Case>& cases, const StrokeTolerances& tolerances, int threads) {
+std::vector<Outcome> judge_cases(const std::vector<Case>& cases, const StrokeTolerances& tolerances,
+                                 const CharacterIndex* others, int threads) {
   std::vector<Outcome> outcomes(cases.size());
   parallel_for(
-      cases.size(), threads, [](double) {}, [&](std::size_t i) { outcomes[i] = judge(cases[i], tolerances); });
+      cases.size(), threads, [](double) {}, [&](std::size_t i) { outcomes[i] = judge(cases[i], tolerances, others); });
   return outcomes;
 }
 

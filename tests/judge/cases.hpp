@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/practice/character_index.hpp>
 #include <calligraphy/render/stroke_tolerances.hpp>
 
 #include "corruptions.hpp"
@@ -21,6 +22,7 @@ struct Case {
 struct Outcome {
   bool told = false;         ///< exactly
   bool silent = false;       ///< nothing is remarked
+  char32_t other = 0;        ///< another character that is told to have been written; 0: none
   double comparisons = 0.0;  ///< of a pen-down with a stroke, per pen-down and stroke
   std::string text;          ///< what is told
 };
@@ -31,7 +33,8 @@ struct Outcome {
 std::vector<Case> cases_of(const std::vector<std::vector<RightPen>>& sources, std::size_t row, StrokeClass stroke_class,
                            std::size_t count, std::uint64_t seed);
 
+/// `others`: that match_strokes() may take the writing for; nullptr: none.
 std::vector<Outcome> judge_cases(const std::vector<Case>& cases, const calligraphy::StrokeTolerances& tolerances,
-                                 int threads);
+                                 const calligraphy::CharacterIndex* others, int threads);
 
 }  // namespace calligraphy_test

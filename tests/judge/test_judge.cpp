@@ -12,6 +12,7 @@
 #include "cases.hpp"
 #include "catch.hpp"
 #include "guidance/statistics.hpp"
+#include "other_characters.hpp"
 #include "polyline.hpp"
 #include "practice/pen_traces.hpp"
 
@@ -329,6 +330,41 @@ TEST_CASE("a remark of order on a stroke that has not moved does not tell the tr
   });
 }
 
+TEST_CASE("the copy of a character is told where another one was asked for, and not where it was itself", "[judge]") {
+  const CharacterSet set(built_in_characters());
+  const CharacterIndex index(set);
+  const std::vector<std::vector<RightPen>> sources = {copies()};
+  const std::vector<OtherCase> cases = cases_of_another(sources, set, 40, 1);
+  CHECK(cases.size() == 40);
+  const std::vector<OtherOutcome> outcomes = judge_others(cases, {}, index, 0);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Character& written = cases[i].pen->character;
+    CAPTURE(encode_utf8(written.code), encode_utf8(cases[i].asked_for.code), outcomes[i].text);
+    CHECK(written.code != cases[i].asked_for.code);
+    CHECK(strokes(written).size() == strokes(cases[i].asked_for).size());
+    CHECK(outcomes[i].exact);
+    CHECK(outcomes[i].named == written.code);
+  }
+  std::vector<OtherCase> right;
+  for (const RightPen& pen : sources.front()) right.push_back({&pen, pen.character});
+  for (const OtherOutcome& outcome : judge_others(right, {}, index, 0)) {
+    CHECK_FALSE(outcome.exact);
+    CHECK(outcome.named == 0);
+  }
+}
+
+TEST_CASE("another character is drawn anew with another seed, of all forms of the set", "[judge]") {
+  const CharacterSet set(built_in_characters());
+  const std::vector<std::vector<RightPen>> sources = {copies()};
+  const auto asked_for = [&](std::uint64_t seed) {
+    std::u32string codes;
+    for (const OtherCase& each : cases_of_another(sources, set, 40, seed)) codes += each.asked_for.code;
+    return codes;
+  };
+  CHECK(asked_for(1) == asked_for(1));
+  CHECK(asked_for(1) != asked_for(2));
+}
+
 namespace {
 
 /// Of a row: at most so many [%] with any remark, or at least so many told exactly.
@@ -344,7 +380,7 @@ void check_mark(const std::vector<RightPen>& pens, const Mark& mark, std::size_t
   const auto row = static_cast<std::size_t>(&corruption - corruptions().data());
   const std::vector<std::vector<RightPen>> sources = {pens};
   const std::vector<Case> cases = cases_of(sources, row, mark.stroke_class, count, 1);
-  const std::vector<Outcome> outcomes = judge_cases(cases, tolerances, 0);
+  const std::vector<Outcome> outcomes = judge_cases(cases, tolerances, nullptr, 0);
   Share share;
   std::vector<double> comparisons;
   std::string failed;
@@ -438,6 +474,49 @@ TEST_CASE("of people's pens that wrote a character right, what is told is right"
               300);
   check_marks(pens, {{"as-they-are", 4.0}}, 300, StrokeTolerances::strict());
   check_marks(pens, {{"as-they-are", 0.8}}, 300, StrokeTolerances::lenient());
+}
+
+TEST_CASE("of people's pens another character is told, and seldom where there is none", "[judge]") {
+  const char* const directories = std::getenv("CALLIGRAPHY_ALL_PEN_TRACES");
+  const char* const kanji = std::getenv("CALLIGRAPHY_KANJI_FILE");
+  const auto hanzi = imported_characters();
+  if (directories == nullptr || kanji == nullptr || !hanzi) {
+    WARN("skipped: CALLIGRAPHY_ALL_PEN_TRACES and CALLIGRAPHY_KANJI_FILE name no pen traces and no characters");
+    return;
+  }
+  std::vector<std::string> all;
+  std::istringstream names(directories);
+  for (std::string name; std::getline(names, name, ':');) all.push_back(name);
+  const std::vector<CharacterSet> sets = {*hanzi, CharacterSet::open(kanji)};
+  const CharacterSet set = CharacterSet::layered(sets);
+  const CharacterIndex index(set);
+  std::vector<std::vector<RightPen>> sources = {pens_of_people(all, sets)};
+  std::erase_if(sources[0], [](const RightPen& pen) { return !is_printed_half(pen.character.code); });
+  Share told;
+  for (const OtherOutcome& each : judge_others(cases_of_another(sources, set, 300, 1), {}, index, 0)) {
+    told.add(each.exact);
+  }
+  CAPTURE(told.count, told.of);
+  CHECK(told.percent() >= 97.0);
+  for (const auto& [name, most] : {std::pair{"as-they-are", 0.5}, {"swap", 0.5}, {"displaced-8", 3.0}}) {
+    const auto row = static_cast<std::size_t>(&corruption_named(name) - corruptions().data());
+    Share wrong;
+    for (const Outcome& each : judge_cases(cases_of(sources, row, StrokeClass::any, 300, 1), {}, &index, 0)) {
+      wrong.add(each.other != 0);
+    }
+    CAPTURE(name, wrong.count, wrong.of);
+    CHECK(wrong.percent() <= most);
+  }
+  const std::vector<RightPen> written = written_pens(forms_of_twins(set, 3), 1, 0);
+  int most = 0;
+  for (const Twins& each : all_twins) {
+    Share noticed;
+    for (const OtherOutcome& outcome : judge_others(cases_of_twins(written, set, each), {}, index, 0)) {
+      noticed.add(outcome.named != 0);
+    }
+    most += noticed.percent() > 50.0;
+  }
+  CHECK(most >= 13);
 }
 
 }  // namespace calligraphy_test

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <calligraphy/base/text.hpp>
+
 namespace calligraphy_test {
 
 using namespace calligraphy;
@@ -66,6 +68,13 @@ bool tells(const MatchResult& match, const Truth& truth) {
   });
 }
 
+char32_t other_character(const MatchResult& match) {
+  for (const StrokeRemark& remark : match.remarks) {
+    if (remark.other_character != 0) return remark.other_character;
+  }
+  return 0;
+}
+
 std::string describe(const Truth& truth) {
   std::string text;
   for (const Written& each : truth.written) {
@@ -81,7 +90,11 @@ std::string describe(const MatchResult& match) {
   for (const DrawnStroke& each : match.drawn) {
     text += (text.empty() ? "" : " ") + describe_strokes(each.stroke, each.stroke_count, each.continues);
   }
-  for (const StrokeRemark& remark : match.remarks) text += ", " + describe(due_of(remark));
+  for (const StrokeRemark& remark : match.remarks) {
+    const bool is_other = remark.other_character != 0;
+    text += ", " + (is_other ? std::string(to_string(remark.kind)) + " " + encode_utf8(remark.other_character)
+                             : describe(due_of(remark)));
+  }
   return text;
 }
 

@@ -43,8 +43,12 @@ struct Truth {
 /// else. Where strokes are moved, by one fault, there is one remark of order, of one that is moved.
 bool tells(const calligraphy::MatchResult& match, const Truth& truth);
 
+/// The character that is told to have been written in place of the one that was asked for; 0: none.
+char32_t other_character(const calligraphy::MatchResult& match);
+
 /// "1 2 4+5 4~ x, direction 2, order 1..3": the strokes of each pen-down, from 1, joined ones as 4+5, the rest of a
-/// broken one as 4~, none as x; then the remarks, with the stroke or, of an extra one, the pen-down.
+/// broken one as 4~, none as x; then the remarks, with the stroke or, of an extra one, the pen-down,
+/// or the other character.
 std::string describe(const Truth& truth);
 std::string describe(const calligraphy::MatchResult& match);
 
