@@ -182,14 +182,15 @@ def test_a_novice_finishes_fewer_strokes_at_the_first_touch_the_stricter_the_pre
 
 
 @pytest.mark.parametrize("tolerances", PRESETS.values(), ids=PRESETS)
-def test_a_slanted_stroke_is_another_shape_beyond_the_angle_of_its_preset(tolerances):
-    one = cal.built_in_characters()["一"]
-    for angle, remarks in ((tolerances.direction - 0.14, 0), (tolerances.direction + 0.14, 1)):
+def test_a_slanted_stroke_is_told_beyond_the_angle_of_its_preset(tolerances):
+    one, told_from = cal.built_in_characters()["一"], tolerances.evidence * math.pi / 3
+    for angle, remarks in ((told_from - 0.14, 0), (told_from + 0.14, 1)):
         arm = 0.3 * np.array([math.cos(angle), math.sin(angle)])
         path = 0.5 + np.linspace(-1, 1, 50)[:, None] * arm
         match = cal.match_strokes(one, [path], tolerances=tolerances)
         assert match.count(cal.StrokeRemarkKind.shape) == len(match.remarks) == remarks
-        expected = cal.WritingDirection.neither if remarks else cal.WritingDirection.forwards
+        forwards = angle < math.pi / 3  # of every preset
+        expected = cal.WritingDirection.forwards if forwards else cal.WritingDirection.neither
         assert match.drawn[0].stroke == 0 and match.drawn[0].direction is expected
 
 
