@@ -13,6 +13,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/pictures/replay_picture.hpp>
+#include <calligraphy/practice/character_index.hpp>
 #include <calligraphy/practice/pen_trace.hpp>
 #include <calligraphy/practice/session.hpp>
 

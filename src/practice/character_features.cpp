@@ -37,6 +37,14 @@ CharacterFeature character_feature(std::span<const Outline> strokes) {
   return points.reshaped<Eigen::RowMajor>().cast<float>();
 }
 
+CharacterFeature character_feature(const Character& character) {
+  std::vector<Outline> outlines;
+  for (const Stroke& stroke : strokes(character)) {
+    outlines.push_back(outline(middle_line(stroke, {Point::Zero(), 1.0})));
+  }
+  return character_feature(outlines);
+}
+
 double apart(const Eigen::Ref<const CharacterFeature>& one, const Eigen::Ref<const CharacterFeature>& other) {
   return static_cast<double>((one - other).norm()) / std::sqrt(static_cast<double>(one.size()) / 2.0);
 }
@@ -48,14 +56,11 @@ CharacterFeatures::CharacterFeatures(const CharacterSet& set) {
     ++size_;
     for (const StoredCharacter& form : set.forms(*code)) {
       const Character character = form.character();
-      std::vector<Outline> outlines;
-      for (const Stroke& stroke : strokes(character)) {
-        outlines.push_back(outline(middle_line(stroke, {Point::Zero(), 1.0})));
-      }
-      groups_.resize(std::max(groups_.size(), outlines.size() + 1));
+      const auto count = static_cast<std::size_t>(character.stroke_count());
+      groups_.resize(std::max(groups_.size(), count + 1));
       features.resize(groups_.size());
-      groups_[outlines.size()].codes.push_back(*code);
-      features[outlines.size()].push_back(character_feature(outlines));
+      groups_[count].codes.push_back(*code);
+      features[count].push_back(character_feature(character));
     }
   }
   for (std::size_t count = 0; count < groups_.size(); ++count) {

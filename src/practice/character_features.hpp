@@ -22,8 +22,9 @@ inline constexpr Eigen::Index points_in_stroke = 8;
 /// with the same standard deviation each way, unless the writing is a line.
 using CharacterFeature = Eigen::VectorXf;
 
-/// Of the outlines of strokes, or of pen-downs.
+/// Of the outlines of pen-downs, or of a character.
 CharacterFeature character_feature(std::span<const Outline> strokes);
+CharacterFeature character_feature(const Character& character);
 
 /// Root mean square of the distances of the points of two characters of as many strokes [em].
 double apart(const Eigen::Ref<const CharacterFeature>& one, const Eigen::Ref<const CharacterFeature>& other);

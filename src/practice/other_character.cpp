@@ -40,13 +40,10 @@ CharacterFeature as_read(const CharacterFeature& feature, const StrokeReading& r
 
 }  // namespace
 
-std::optional<OtherCharacter> other_character(const CharacterFeatures& characters, char32_t asked_for,
-                                              const StrokeOutlines& strokes, std::span<const PenPath> paths,
-                                              const StrokeReading& reading) {
-  if (paths.size() != strokes.count() || paths.empty()) return std::nullopt;
-  std::vector<Outline> wanted;
-  for (std::size_t stroke = 0; stroke < strokes.count(); ++stroke) wanted.push_back(strokes.run(stroke, 1).line);
-  const CharacterFeature asked = character_feature(wanted);
+std::optional<OtherCharacter> other_character(const CharacterFeatures& characters, const Character& asked_for,
+                                              std::span<const PenPath> paths, const StrokeReading& reading) {
+  if (paths.size() != reading.costs->strokes() || paths.empty()) return std::nullopt;
+  const CharacterFeature asked = character_feature(asked_for);
   CharacterFeatures::Neighbour nearest;
   double from_asked = std::numeric_limits<double>::infinity(), from_asked_as_read = from_asked;
   // Upright as the reading has it, and as it is: the reading of another character may turn it wrongly.
@@ -55,13 +52,13 @@ std::optional<OtherCharacter> other_character(const CharacterFeatures& character
     std::vector<Outline> drawn;
     for (const PenPath& path : paths) drawn.push_back(outline(path) * turn.transpose());
     const CharacterFeature writing = character_feature(drawn), read = as_read(writing, reading);
-    const auto near = characters.nearest(writing, asked_for);
+    const auto near = characters.nearest(writing, asked_for.code);
     if (near && near->distance < nearest.distance) nearest = *near;
     from_asked = std::min(from_asked, apart(writing, asked));
     if (read.size() > 0) from_asked_as_read = std::min(from_asked_as_read, apart(read, asked));
   }
   if (nearest.code == 0) return std::nullopt;
-  const double doubt = carelessness * nearest.distance / std::sqrt(static_cast<double>(strokes.count()));
+  const double doubt = carelessness * nearest.distance / std::sqrt(static_cast<double>(paths.size()));
   // Along the line from one character to the other, which are so far apart.
   const auto is_clear = [&](double from_one, double between) {
     const double beyond_middle = (from_one * from_one - nearest.distance * nearest.distance) / (2.0 * between);

@@ -19,8 +19,7 @@ struct OtherCharacter {
 /// measure for strangers and near twins alike: the place of the writing on the way from one character to the other. The
 /// writing is turned upright, as the reading has it; its strokes in another order or direction are not held against the
 /// character that was asked for.
-std::optional<OtherCharacter> other_character(const CharacterFeatures& characters, char32_t asked_for,
-                                              const StrokeOutlines& strokes, std::span<const PenPath> paths,
-                                              const StrokeReading& reading);
+std::optional<OtherCharacter> other_character(const CharacterFeatures& characters, const Character& asked_for,
+                                              std::span<const PenPath> paths, const StrokeReading& reading);
 
 }  // namespace calligraphy

@@ -176,7 +176,7 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   }
   const Character& character = accepted[static_cast<std::size_t>(best.result.accepted)];
   std::optional<OtherCharacter> other;
-  if (others) other = other_character(others->features(), character.code, *best.outlines, steady, best.reading);
+  if (others) other = other_character(others->features(), character, steady, best.reading);
   best.result.remarks = remarks_on(character, paths, best.result.drawn, best.result.fit,
                                    {best.reading.order_evidence, tolerances.evidence}, other);
   return std::move(best.result);

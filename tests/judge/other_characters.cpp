@@ -20,14 +20,6 @@ namespace {
 constexpr double lookalike = 0.06;  // distance of characters that hardly differ [em]
 constexpr int most_strokes = 64;    // of a character
 
-CharacterFeature feature_of(const Character& character) {
-  std::vector<Outline> outlines;
-  for (const Stroke& stroke : strokes(character)) {
-    outlines.push_back(outline(middle_line(stroke, {Point::Zero(), 1.0})));
-  }
-  return character_feature(outlines);
-}
-
 OtherOutcome judge(const OtherCase& each, const StrokeTolerances& tolerances, const CharacterIndex& index) {
   const MatchResult match = match_strokes(each.asked_for, each.pen->paths, tolerances, &index);
   OtherOutcome outcome{false, other_character(match), describe(match)};
@@ -35,7 +27,7 @@ OtherOutcome judge(const OtherCase& each, const StrokeTolerances& tolerances, co
   if (match.count(StrokeRemarkKind::character) == 1) {
     outcome.exact = match.remarks.size() == 1;
   } else {
-    outcome.exact = apart(feature_of(each.pen->character), feature_of(each.asked_for)) < lookalike;
+    outcome.exact = apart(character_feature(each.pen->character), character_feature(each.asked_for)) < lookalike;
   }
   return outcome;
 }

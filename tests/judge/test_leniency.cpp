@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <sstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -11,7 +9,7 @@
 
 #include "../catch.hpp"
 #include "cases.hpp"
-#include "practice/pen_traces.hpp"
+#include "pens_of_tests.hpp"
 
 using namespace calligraphy;
 
@@ -59,18 +57,10 @@ TEST_CASE("what is told strictly includes what is told normally, and that what i
   CHECK(sums[1] > sums[2]);  // slants between the strict and the normal bound are people's
 }
 
-TEST_CASE("the same of people's pens", "[judge]") {
-  const char* const directories = std::getenv("CALLIGRAPHY_ALL_PEN_TRACES");
-  const char* const kanji = std::getenv("CALLIGRAPHY_KANJI_FILE");
-  const auto hanzi = imported_characters();
-  if (directories == nullptr || kanji == nullptr || !hanzi) {
-    WARN("skipped: CALLIGRAPHY_ALL_PEN_TRACES and CALLIGRAPHY_KANJI_FILE name no pen traces and no characters");
-    return;
-  }
-  std::vector<std::string> all;
-  std::istringstream names(directories);
-  for (std::string name; std::getline(names, name, ':');) all.push_back(name);
-  const auto [strict, normal, lenient] = check_nested(pens_of_people(all, {*hanzi, CharacterSet::open(kanji)}), 130);
+TEST_CASE("the same of people's pens", "[judge][corpus]") {
+  const auto corpus = people();
+  if (!corpus) return;
+  const auto [strict, normal, lenient] = check_nested(corpus->pens, 130);
   CHECK(strict > normal);
   CHECK(normal > lenient);
 }
