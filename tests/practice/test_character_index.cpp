@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -157,6 +158,18 @@ TEST_CASE("a character in another order or direction, turned or smaller, is not 
   }
 }
 
+TEST_CASE("a lone slanted line is the nearest one by its angle, however narrow its box", "[practice]") {
+  const Character one = of_lines(U'一', {{Point(0.1, 0.5), Point(0.9, 0.5)}});
+  const Character dot = of_lines(U'丶', {{Point(0.4, 0.6), Point(0.6, 0.4)}});
+  const CharacterIndex index = index_of({one, dot});
+  const auto slanted = [](double degrees) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    return std::vector<PenPath>{{Point(0.2, 0.5), Point(0.2 + 0.5 * std::cos(angle), 0.5 - 0.5 * std::sin(angle))}};
+  };
+  CHECK(told(one, slanted(20.0), index).empty());
+  CHECK(told(one, slanted(42.0), index) == "character 丶");
+}
+
 TEST_CASE("a character of fewer or more strokes is not told as another one", "[practice]") {
   const CharacterList& all = built_in_characters();
   const CharacterIndex index{CharacterSet(all)};
@@ -176,6 +189,13 @@ TEST_CASE("twins are told by their proportions, and of lookalikes there is a not
   const Character nearly = cross_on_a_line(U'士', 0.5);
   const CharacterIndex lookalikes = index_of({earth, nearly});
   CHECK(told(earth, copy_of(nearly), lookalikes) == "lookalike 士");
+  const std::vector<PenPath> turned =
+      moved(copy_of(scholar), Eigen::Rotation2Dd(0.35).toRotationMatrix(), Point(0.3, -0.1));
+  CHECK(told(earth, turned, twins) == "character 士");
+  CHECK(told(scholar, turned, twins).empty());
+
+  const Character all_but_same = cross_on_a_line(U'士', 0.455);
+  CHECK(told(earth, copy_of(all_but_same), index_of({earth, all_but_same})).empty());
   Character same = earth;
   same.code = U'士';
   CHECK(told(earth, copy_of(earth), index_of({earth, same})).empty());
