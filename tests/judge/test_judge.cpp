@@ -518,7 +518,12 @@ TEST_CASE("of people's pens another character is told, and seldom where there is
   }
   CAPTURE(told.count, told.of);
   CHECK(told.percent() >= 97.0);
-  for (const auto& [name, most] : {std::pair{"as-they-are", 0.5}, {"swap", 0.5}, {"displaced-8", 3.0}}) {
+  for (const auto& [name, most] : {std::pair{"as-they-are", 0.5},
+                                   {"rotation+25", 0.5},
+                                   {"rotation-25", 0.5},
+                                   {"swap", 0.5},
+                                   {"reverse", 0.5},
+                                   {"displaced-8", 3.0}}) {
     const auto row = static_cast<std::size_t>(&corruption_named(name) - corruptions().data());
     Share wrong;
     for (const Outcome& each : judge_cases(cases_of(sources, row, StrokeClass::any, 300, 1), {}, &index, 0)) {
