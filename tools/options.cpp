@@ -71,6 +71,16 @@ std::string name_in_file(char32_t code) {
   return good ? encode_utf8(code) : fmt::format("U+{:04X}", static_cast<unsigned>(code));
 }
 
+void add_language_option(CLI::App& command, Language& language) {
+  command
+      .add_option_function<std::string>(
+          "--language",
+          [&language](const std::string& name) { language = name == "zh" ? Language::chinese : Language::english; },
+          "Language in which remarks are printed: English or Chinese")
+      ->check(CLI::IsMember({"en", "zh"}))
+      ->default_str("en");
+}
+
 void add_lines_flag(CLI::App& command, StrokeStyle& style) {
   command
       .add_flag_callback(

@@ -11,6 +11,8 @@
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 
+#include "language.hpp"
+
 namespace calligraphy::tools {
 
 /// Accepts an argument that is entirely a number in [least, most]; rejects "1e999", "nan", "0x10" and "5 ".
@@ -44,6 +46,9 @@ struct PageChoice {
   }
   PageLayout layout(const Capabilities& device) const { return workspace_layout(device, mapping(0.0, 0.0)); }
 };
+
+/// Adds --language en|zh, in which remarks are printed.
+void add_language_option(CLI::App& command, Language& language);
 
 /// Adds --lines, which draws strokes as lines instead of ink.
 void add_lines_flag(CLI::App& command, StrokeStyle& style);

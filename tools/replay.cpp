@@ -42,6 +42,7 @@ struct ReplayArguments {
   std::string renderer = "default";
   PageChoice page;
   StrokeStyle style = StrokeStyle::ink;  ///< of the templates
+  Language language = Language::english;
   bool recognise = false;
   bool json = false;
 };
@@ -121,7 +122,7 @@ class ReplayRun {
     if (report_.traces.empty()) interrupt.check();
     report_.interrupted = report_.traces.size() < with_template;
     if (out) out->write("replay.json", json(report_));
-    fmt::print("{}", options_.json ? json(report_) : table(report_));
+    fmt::print("{}", options_.json ? json(report_) : table(report_, options_.language));
     if (report_.interrupted) {
       throw Error(fmt::format("interrupted after {} of {} traces", report_.traces.size(), with_template));
     }
@@ -232,6 +233,7 @@ void add_replay(CLI::App& program) {
       ->add_flag("--recognise", options->recognise,
                  "Also look up what was written: the characters of as many strokes that each trace resembles most")
       ->disable_flag_override();
+  add_language_option(*command, options->language);
   add_lines_flag(*command, options->style);
   command->add_flag("--json", options->json, "Print JSON instead of the table")->disable_flag_override();
   command->callback([options] { ReplayRun(*options).replay(); });

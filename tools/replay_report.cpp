@@ -144,7 +144,7 @@ Json json_of(const Replayed& trace) {
 
 }  // namespace
 
-std::string table(const ReplayReport& report) {
+std::string table(const ReplayReport& report, Language language) {
   constexpr const char* head = "{:<8}{:>10}  {:<16}{:<14}{:<22}{:>11}{:>8}{:>8}{:>11}\n";
   std::string text =
       fmt::format(fmt::runtime(head), "", "pen-downs", "", "", "", "completed", "", "peak F", "max step");
@@ -160,8 +160,7 @@ std::string table(const ReplayReport& report) {
                         fmt::format("{}/{}", trace.guided.strokes_completed, trace.guided.stroke_count), trace.faults,
                         trace.guided.peak_force, trace.guided.max_force_step);
     for (const StrokeRemark& remark : match.remarks) {
-      remarks += fmt::format("{:>3} {}  {}: {}\n", trace.position, character, calligraphy::to_string(remark.kind),
-                             remark.reason);
+      remarks += fmt::format("{:>3} {}  {}\n", trace.position, character, words(remark, language));
     }
   }
   text += fmt::format("limits of {}: force {:.2f} N, force step {:.3f} N/tick\n", report.device, report.peak_force,

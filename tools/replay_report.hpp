@@ -8,6 +8,8 @@
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/stroke_matching.hpp>
 
+#include "language.hpp"
+
 namespace calligraphy::tools {
 
 /// Result of one trace.
@@ -41,8 +43,8 @@ struct ReplayReport {
   std::u32string without_template;     ///< written characters that are not in the set
 };
 
-/// One line per trace, the limits, all remarks, then the totals.
-std::string table(const ReplayReport& report);
+/// One line per trace, the limits, all remarks in a language, then the totals.
+std::string table(const ReplayReport& report, Language language);
 
 std::string json(const ReplayReport& report);
 

@@ -27,7 +27,8 @@ inline nlohmann::ordered_json remark_json(const StrokeRemark& remark) {
           {"other_character", remark.other_character ? Json(encode_utf8(remark.other_character)) : Json()},
           {"place_em", {remark.place.x(), remark.place.y()}},
           {"evidence", remark.evidence},  // null: always told
-          {"reason", remark.reason}};
+          {"reason", remark.reason},
+          {"reason_zh", remark.reason_zh}};
 }
 
 /// With the unit of length in the names; null for what was not measured.

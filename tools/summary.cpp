@@ -40,6 +40,9 @@ double mean(const std::vector<Result>& results, std::size_t begin, std::size_t e
 /// Fewer independent pairs of runs vary too much to show an effect of force.
 constexpr std::size_t least_runs = 10;
 
+/// More are not printed.
+constexpr std::size_t most_remarks = 20;
+
 /// A character written without and with force, with the beliefs of one seed.
 struct Pair {
   const Result* vision;
@@ -281,6 +284,21 @@ std::string reductions(const std::vector<Result>& results) {
     text += counted(omitted, "pair") + " omitted: not every stroke was completed\n";
   }
   return text;
+}
+
+std::string remarks(const Summary& summary, Language language) {
+  std::string text;
+  std::size_t count = 0;
+  for (const Result& result : summary.results) {
+    const std::string of = summary.repetitions > 1 ? fmt::format(" {}", result.repetition) : "";
+    for (const StrokeRemark& remark : result.score.match.remarks) {
+      ++count;
+      text += fmt::format("{:>3} {}  {}{}  {}\n", result.position, encode_utf8(result.score.character),
+                          to_string(result.mode), of, words(remark, language));
+    }
+  }
+  if (count == 0) return "";
+  return "\n" + (count <= most_remarks ? text : counted(count, "remark") + ": see summary.json\n");
 }
 
 }  // namespace calligraphy::tools

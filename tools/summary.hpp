@@ -8,6 +8,8 @@
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 
+#include "language.hpp"
+
 namespace calligraphy::tools {
 
 /// One character, written once.
@@ -34,7 +36,8 @@ double percentile(std::vector<float>& values, double share);
 /// One line per character and mode, with means over as many repetitions as there are, which the first line says.
 std::string table(const Summary& summary);
 
-/// An object: how many repetitions were asked for, whether the run was interrupted, and a list with one object per result.
+/// An object: how many repetitions were asked for, whether the run was interrupted, and a list with one object per
+/// result.
 std::string json(const Summary& summary);
 
 /// Reduction of error and time with force: mean and 95 % interval over the pairs of character and repetition that are
@@ -43,5 +46,8 @@ std::string json(const Summary& summary);
 /// Clustered by run, that is by page and seed: its characters draw their own beliefs, but one renderer renders them,
 /// whose assistance and thermal budget carry over, and a run that stops early loses all that follow.
 std::string reductions(const std::vector<Result>& results);
+
+/// All remarks in a language, a line each; of more than 20, how many there are. Empty without any.
+std::string remarks(const Summary& summary, Language language);
 
 }  // namespace calligraphy::tools

@@ -58,6 +58,7 @@ struct WriteArguments {
   StrokeStyle style = StrokeStyle::ink;
   std::optional<std::string> method;
   std::optional<double> tolerance;
+  Language language = Language::english;
   bool json = false;
 };
 
@@ -296,7 +297,7 @@ class WriteRun {
     if (options_.json) {
       fmt::print("{}", json(summary_));
     } else {
-      fmt::print("{}{}", table(summary_), reductions(summary_.results));
+      fmt::print("{}{}{}", table(summary_), reductions(summary_.results), remarks(summary_, options_.language));
       for (const ServoStatistics& statistics : pen_.statistics()) fmt::print("{}", lines(statistics));
     }
     const auto given_up = [](const Result& r) { return r.score.strokes_completed < r.score.stroke_count; };
@@ -407,6 +408,7 @@ void add_write(CLI::App& program) {
                    "Tolerance of the nearest point, relative to the size of the curve, 1e-15 to 1")
       ->check(number(1e-15, 1.0))
       ->type_name("T");
+  add_language_option(*command, options->language);
   add_lines_flag(*command, options->style);
   command->add_flag("--json", options->json, "Print summary.json instead of the table")->disable_flag_override();
   command->callback([options] { WriteRun(*options).write(); });

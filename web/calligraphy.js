@@ -16,7 +16,7 @@ export { constants };
  * @typedef {import("./calligraphy_layout.js").Structs} Structs such as Structs["tick"]
  * @typedef {ReturnType<typeof bind>} Library what load() returns
  * @typedef {Values<Structs["drawn_stroke"]>} Drawn what a pen-down wrote
- * @typedef {Values<Structs["remark"]> & {reason: string}} Remark with a sentence for people
+ * @typedef {Values<Structs["remark"]> & {reason: string, reason_zh: string}} Remark in English and in Chinese
  * @typedef {{drawn: Drawn[], remarks: Remark[]}} Match
  * @typedef {Values<Structs["stroke_score"]>} StrokeScore
  * @typedef {Values<Structs["pen_down_score"]>} PenDownScore
@@ -302,11 +302,18 @@ function bind(module) {
   function readMatch(handle, count) {
     try {
       const drawn = readAll("drawn_stroke", count, (i, each) => library.match_drawn(handle, i, each));
-      /** @type {string[]} */
-      const reasons = [];
       const remarks = readAll("remark", library.match_remark_count(handle),
-                              (i, each) => reasons.push(library.match_remark(handle, i, each)));
-      return { drawn, remarks: remarks.map((remark, i) => ({ ...remark, reason: reasons[i] })) };
+                              (i, each) => library.match_remark(handle, i, each));
+      const said = (/** @type {number} */ i, /** @type {number} */ language) =>
+        library.match_remark_text(handle, i, language);
+      return {
+        drawn,
+        remarks: remarks.map((remark, i) => ({
+          ...remark,
+          reason: said(i, constants.LANGUAGE_ENGLISH),
+          reason_zh: said(i, constants.LANGUAGE_CHINESE),
+        })),
+      };
     } finally {
       library.free(handle);
     }

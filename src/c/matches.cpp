@@ -84,3 +84,12 @@ calligraphy_status calligraphy_match_remark(const calligraphy_match* match, int3
     if (reason) *reason = found.reason.c_str();
   });
 }
+
+calligraphy_status calligraphy_match_remark_text(const calligraphy_match* match, int32_t index, int32_t language,
+                                                 const char** text) {
+  return guarded([&] {
+    const StrokeRemark& found = item("index", object<MatchResult>(match).remarks, index);
+    const calligraphy_language chosen = enumeration("language", language, CALLIGRAPHY_LANGUAGE_CHINESE);
+    target(text, "text") = chosen == CALLIGRAPHY_LANGUAGE_CHINESE ? found.reason_zh.c_str() : found.reason.c_str();
+  });
+}

@@ -246,8 +246,7 @@ void draw_guided(pugi::xml_node root, std::span<const PenPath> guided, const svg
 
 std::vector<std::string> lines_of(const MatchResult& match) {
   std::vector<std::string> lines;
-  for (const StrokeRemark& remark : match.remarks)
-    lines.push_back(std::string(to_string(remark.kind)) + ": " + remark.reason);
+  for (const StrokeRemark& remark : match.remarks) lines.push_back(remark.reason);
   if (lines.empty()) lines.emplace_back("all strokes in the correct order and direction");
   if (lines.size() > max_lines) {
     const std::size_t more = lines.size() - max_lines + 1;

@@ -1,88 +1,276 @@
 #include "remark_words.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string_view>
+#include <vector>
+
+#include <Eigen/Geometry>
 
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/practice/pen_path.hpp>
 
+#include "resemblance.hpp"
 #include "stroke_direction.hpp"
 
 namespace calligraphy {
 namespace {
 
-std::string pen_down(int path) { return "pen-down " + std::to_string(path + 1); }
+constexpr double closed = 0.2;     // ends nearer to each other, of its length: no side is where it starts [1]
+constexpr double straight = 0.85;  // ends nearer to each other: to name them does not tell the way [1]
+constexpr double flat = 0.15;      // a character of a smaller height or width has no top or no left [em]
+
+struct Side {
+  std::string_view english;
+  std::string_view chinese;
+};
+
+/// Counter-clockwise, each opposite to the fourth from it.
+constexpr std::array<Side, 8> sides = {{{"right", "右边"},
+                                        {"top right", "右上方"},
+                                        {"top", "上边"},
+                                        {"top left", "左上方"},
+                                        {"left", "左边"},
+                                        {"bottom left", "左下方"},
+                                        {"bottom", "下边"},
+                                        {"bottom right", "右下方"}}};
+
+/// Of a character, from the bottom left, row by row.
+constexpr std::array<Side, 9> thirds = {{{"at the bottom left", "左下方"},
+                                         {"at the bottom", "下边"},
+                                         {"at the bottom right", "右下方"},
+                                         {"at the left", "左边"},
+                                         {"in the middle", "中间"},
+                                         {"at the right", "右边"},
+                                         {"at the top left", "左上方"},
+                                         {"at the top", "上边"},
+                                         {"at the top right", "右上方"}}};
+
+/// 0, 1 or 2.
+int third_of(double value, double least, double most) {
+  if (most - least < flat) return 1;
+  return std::clamp(static_cast<int>(3.0 * (value - least) / (most - least)), 0, 2);
+}
+
+/// "1st", "2nd", "3rd", "4th", "11th", "21st"
+std::string ordinal(int number) {
+  const int last = number % 10;
+  const bool is_regular = number / 10 % 10 == 1 || last < 1 || last > 3;
+  constexpr std::array<const char*, 3> endings = {"st", "nd", "rd"};
+  return std::to_string(number) + (is_regular ? "th" : endings[static_cast<std::size_t>(last - 1)]);
+}
 
 class Words {
  public:
-  explicit Words(std::span<const Stroke> strokes) : strokes_(strokes) {}
+  Words(const StrokeRemark& remark, std::span<const Stroke> strokes) : remark_(remark), strokes_(strokes) {}
 
-  std::string stroke(int index) const { return "stroke " + numbered(index); }
-
-  std::string strokes(const StrokeRemark& remark) const {
-    if (remark.stroke_count == 1) return stroke(remark.stroke);
-    const std::string between = remark.stroke_count == 2 ? " and " : " to ";
-    return "strokes " + numbered(remark.stroke) + between + numbered(remark.stroke + remark.stroke_count - 1);
-  }
-
-  std::string order(const StrokeRemark& remark) const {
-    if (remark.other_stroke < 0) return strokes(remark) + " were written from the last to the first";
-    const std::string other = stroke(remark.other_stroke);
-    if (remark.other_path >= 0) {
-      return "strokes " + numbered(remark.stroke) + " and " + numbered(remark.other_stroke) + " changed places";
+  RemarkWords order() const {
+    const int other = remark_.other_stroke;
+    if (other < 0) {
+      const int last = remark_.stroke + remark_.stroke_count;
+      return {"Strokes " + english_number(remark_.stroke) + " to " + std::to_string(last) +
+                  " were written from the last to the first: begin with stroke " + english(remark_.stroke) + ".",
+              chinese_number(remark_.stroke) + "到第" + std::to_string(last) + "笔从后往前写了，要从" +
+                  chinese(remark_.stroke) + "写起。"};
     }
-    const std::string were = remark.stroke_count > 1 ? " were written " : " was written ";
-    if (remark.stroke > remark.other_stroke) return strokes(remark) + were + "where " + other + " was due";
-    return strokes(remark) + were + "only after " + other;
+    if (remark_.other_path >= 0) {
+      const auto [first, second] = std::minmax(remark_.stroke, other);
+      return {"Strokes " + english(first) + " and " + english(second) + " changed places: write stroke " +
+                  english_number(first) + " first.",
+              chinese(first) + "和" + chinese(second) + "先后颠倒了，先写" + chinese_number(first) + "。"};
+    }
+    if (remark_.stroke > other) {
+      return {english_strokes() + " came too early: write stroke " + english(other) + " first.",
+              chinese_strokes() + "写早了，先写" + chinese(other) + "。"};
+    }
+    const bool is_first = remark_.stroke == 0;
+    const std::string pronoun = is_several() ? "them" : "it";
+    return {english_strokes() + " came too late: write " + pronoun +
+                (is_first ? " first." : " straight after stroke " + english_number(remark_.stroke - 1) + "."),
+            chinese_strokes() + "写晚了，" +
+                (is_first ? std::string("要最先写。") : "要紧接着" + chinese_number(remark_.stroke - 1) + "写。")};
   }
 
-  std::string extra(const StrokeRemark& remark, WritingDirection direction) const {
-    if (remark.other_stroke < 0) return pen_down(remark.path) + " resembles none of the strokes";
-    std::string text = pen_down(remark.path) + " is another attempt at " + stroke(remark.other_stroke);
-    if (direction == WritingDirection::backwards) text += ", backwards";
-    if (remark.other_path >= 0) text += ", which " + pen_down(remark.other_path) + " wrote";
-    return text;
+  RemarkWords direction() const {
+    if (is_several()) {
+      const Ends ends = ends_of(remark_.stroke);
+      return {english_strokes() + " were written backwards: begin with stroke " + english_number(remark_.stroke) +
+                  (ends.is_closed ? "." : ", at the " + std::string(ends.start.english) + "."),
+              chinese_strokes() + "写反了，先写" + chinese_number(remark_.stroke) +
+                  (ends.is_closed ? "。" : "，从" + std::string(ends.start.chinese) + "起笔。")};
+    }
+    const RemarkWords start = start_of(remark_.stroke);
+    return {english_strokes() + " was written backwards: " + start.english + ".",
+            chinese_strokes() + "写反了，" + start.chinese + "。"};
+  }
+
+  RemarkWords shape() const {
+    const RemarkWords way = way_of_all();
+    return {english_strokes() + (is_several() ? " do" : " does") +
+                " not look right: " + (way.english.empty() ? "follow the model." : "draw it " + way.english + "."),
+            chinese_strokes() + "的形状不对，" + (way.chinese.empty() ? "请照着范字写。" : way.chinese + "。")};
+  }
+
+  RemarkWords part() const {
+    const RemarkWords way = way_of_all();
+    std::string strokes = english_strokes();
+    strokes.front() = 's';
+    return {"Only a part of " + strokes + " is there: draw all of " + (is_several() ? "them" : "it") +
+                (way.english.empty() ? "." : ", " + way.english + "."),
+            chinese_strokes() + "只写了一部分，要写完整" + (way.chinese.empty() ? "。" : "，" + way.chinese + "。")};
+  }
+
+  RemarkWords joined() const {
+    return {english_strokes() + " are joined, as in quick writing: lift the pen between them.",
+            chinese_strokes() + "连写了，笔画之间要提笔。"};
+  }
+
+  RemarkWords broken() const {
+    return {english_strokes() + (is_several() ? " are" : " is") + " in two pieces: draw " +
+                (is_several() ? "them" : "it") + " in one go.",
+            chinese_strokes() + "断成了两段，要一笔写完。"};
+  }
+
+  RemarkWords missing() const {
+    const Side place = place_in_character(remark_.stroke);
+    return {english_strokes() + " is missing: it belongs " + std::string(place.english) + ".",
+            "缺少" + chinese_strokes() + "，它应该在" + std::string(place.chinese) + "。"};
+  }
+
+  RemarkWords extra(WritingDirection direction) const {
+    const std::string english_line = "Your " + ordinal(remark_.path + 1) + " line ";
+    const std::string chinese_line = "你写的" + chinese_number(remark_.path);
+    const int other = remark_.other_stroke;
+    if (other < 0) {
+      return {english_line + "is one too many: leave it out.", chinese_line + "是多余的，不要写。"};
+    }
+    if (direction == WritingDirection::backwards) {
+      const RemarkWords start = start_of(other);
+      return {english_line + "is stroke " + english(other) + " backwards: " + start.english + ".",
+              chinese_line + "把" + chinese(other) + "写反了，" + start.chinese + "。"};
+    }
+    if (remark_.other_path < 0) {
+      return {english_line + "is not quite stroke " + english(other) + ": follow the model.",
+              chinese_line + "不太像" + chinese(other) + "，请照着范字写。"};
+    }
+    return {english_line + "writes stroke " + english(other) + " once more: once is enough.",
+            chinese_line + "又写了一次" + chinese(other) + "，写一次就够了。"};
   }
 
  private:
-  std::string numbered(int index) const {
-    const std::string_view pinyin = strokes_[static_cast<std::size_t>(index)].type->pinyin;
-    return std::to_string(index + 1) + " (" + std::string(pinyin) + ")";
+  struct Ends {
+    Side start, end;
+    bool is_closed;    ///< no side is where it starts
+    bool is_straight;  ///< its ends tell how it runs
+  };
+
+  bool is_several() const { return remark_.stroke_count > 1; }
+
+  const Stroke& at(int index) const { return strokes_[static_cast<std::size_t>(index)]; }
+
+  static std::vector<Point> middle_line_of(const Stroke& stroke) { return middle_line(stroke, {Point::Zero(), 1.0}); }
+
+  static std::string english_number(int index) { return std::to_string(index + 1); }
+  static std::string chinese_number(int index) { return "第" + std::to_string(index + 1) + "笔"; }
+
+  /// "2 (héng)"
+  std::string english(int index) const {
+    return english_number(index) + " (" + std::string(at(index).type->pinyin) + ")";
   }
 
-  std::span<const Stroke> strokes_;
+  /// "第2笔（横）"
+  std::string chinese(int index) const {
+    return chinese_number(index) + "（" + std::string(at(index).type->name) + "）";
+  }
+
+  int last() const { return remark_.stroke + remark_.stroke_count - 1; }
+
+  std::string english_strokes() const {
+    if (!is_several()) return "Stroke " + english(remark_.stroke);
+    return "Strokes " + english(remark_.stroke) + (remark_.stroke_count == 2 ? " and " : " to ") + english(last());
+  }
+
+  std::string chinese_strokes() const {
+    if (!is_several()) return chinese(remark_.stroke);
+    return chinese(remark_.stroke) + (remark_.stroke_count == 2 ? "和" : "到") + chinese(last());
+  }
+
+  /// Where a stroke starts and ends, each as seen from the other.
+  Ends ends_of(int index) const {
+    const std::vector<Point> path = middle_line_of(at(index));
+    const Point chord = path.front() - path.back();
+    const double length = path_length(path);
+    const double eighths = std::atan2(chord.y(), chord.x()) / (std::numbers::pi / 4.0);
+    const auto start = static_cast<std::size_t>(std::lround(eighths) + 8) % 8;
+    return {sides[start], sides[(start + 4) % 8], chord.norm() <= closed * length, chord.norm() >= straight * length};
+  }
+
+  /// "start at the left"
+  RemarkWords start_of(int index) const {
+    const Ends ends = ends_of(index);
+    if (ends.is_closed) return {"start where the model starts", "请照着范字起笔"};
+    return {"start at the " + std::string(ends.start.english), "从" + std::string(ends.start.chinese) + "起笔"};
+  }
+
+  /// "from the left to the right"; empty of several strokes and of one that is not straight.
+  RemarkWords way_of_all() const {
+    if (is_several()) return {};
+    const Ends ends = ends_of(remark_.stroke);
+    if (!ends.is_straight) return {};
+    return {"from the " + std::string(ends.start.english) + " to the " + std::string(ends.end.english),
+            "从" + std::string(ends.start.chinese) + "写到" + std::string(ends.end.chinese)};
+  }
+
+  /// The third of the character across and up in which the middle of a stroke lies.
+  Side place_in_character(int index) const {
+    Eigen::AlignedBox2d box;
+    for (const Stroke& stroke : strokes_) {
+      for (const Point& point : middle_line_of(stroke)) box.extend(point);
+    }
+    const std::vector<Point> path = middle_line_of(at(index));
+    const Point middle = points_along(path, path_length(path), 3)[1];
+    const int column = third_of(middle.x(), box.min().x(), box.max().x());
+    const int row = third_of(middle.y(), box.min().y(), box.max().y());
+    return thirds[static_cast<std::size_t>(3 * row + column)];
+  }
+
+  const StrokeRemark& remark_;
+  const std::span<const Stroke> strokes_;
 };
 
 }  // namespace
 
-std::string sentence(const StrokeRemark& remark, std::span<const DrawnStroke> drawn, char32_t character,
+RemarkWords words_of(const StrokeRemark& remark, std::span<const DrawnStroke> drawn, char32_t character,
                      std::span<const Stroke> strokes) {
-  const Words words(strokes);
+  const Words words(remark, strokes);
+  const auto path = static_cast<std::size_t>(remark.path);
+  const std::string written = encode_utf8(remark.other_character), asked = encode_utf8(character);
   switch (remark.kind) {
     case StrokeRemarkKind::order:
-      return words.order(remark);
+      return words.order();
     case StrokeRemarkKind::direction:
-      return words.strokes(remark) + (remark.stroke_count > 1 ? " were" : " was") + " written backwards";
+      return words.direction();
     case StrokeRemarkKind::shape:
-      if (drawn[static_cast<std::size_t>(remark.path)].length < least_share) {
-        return "only a part of " + words.stroke(remark.stroke) + " was written";
-      }
-      return pen_down(remark.path) + " runs neither along " + words.stroke(remark.stroke) +
-             " nor against it: it was drawn as another shape";
+      return drawn[path].length < least_share ? words.part() : words.shape();
     case StrokeRemarkKind::joined:
-      return words.strokes(remark) + " were written as one: connected writing, no mistake of order";
+      return words.joined();
     case StrokeRemarkKind::broken:
-      return words.stroke(remark.stroke) + " was written in two pen-downs, " + std::to_string(remark.path + 1) +
-             " and " + std::to_string(remark.path + 2);
+      return words.broken();
     case StrokeRemarkKind::missing:
-      return words.stroke(remark.stroke) + " was not written";
+      return words.missing();
     case StrokeRemarkKind::character:
-      return "this is " + encode_utf8(remark.other_character) + ", not " + encode_utf8(character);
+      return {"This looks like " + written + ", not " + asked + ": have another look at the model.",
+              "这像“" + written + "”，不像“" + asked + "”，再看看范字。"};
     case StrokeRemarkKind::lookalike:
-      return "this is nearer to " + encode_utf8(remark.other_character) + " than to " + encode_utf8(character);
+      return {"This could be read as " + written + ": mind how " + asked + " differs.",
+              "这也像“" + written + "”，注意“" + asked + "”和它的区别。"};
     case StrokeRemarkKind::extra:
       break;
   }
-  return words.extra(remark, drawn[static_cast<std::size_t>(remark.path)].direction);
+  return words.extra(drawn[path].direction);
 }
 
 }  // namespace calligraphy

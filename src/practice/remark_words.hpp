@@ -1,4 +1,4 @@
-// What people are told of a stroke or a pen-down.
+// What people are told of a stroke or a pen-down, and what to do about it.
 #pragma once
 
 #include <span>
@@ -9,9 +9,15 @@
 
 namespace calligraphy {
 
-/// One sentence on the writing of a character with this code and these strokes. `drawn` has the pen-downs of the
-/// remark.
-std::string sentence(const StrokeRemark& remark, std::span<const DrawnStroke> drawn, char32_t character,
+/// The same in two languages.
+struct RemarkWords {
+  std::string english;
+  std::string chinese;  ///< simplified
+};
+
+/// One or two short sentences on the writing of a character with this code and these strokes. `drawn` has the pen-downs
+/// of the remark.
+RemarkWords words_of(const StrokeRemark& remark, std::span<const DrawnStroke> drawn, char32_t character,
                      std::span<const Stroke> strokes);
 
 }  // namespace calligraphy

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -55,7 +56,9 @@ class Remarks {
 
   void add(StrokeRemark remark) {
     if (remark.evidence < evidence_.least) return;
-    remark.reason = sentence(remark, drawn_, character_.code, strokes_);
+    RemarkWords words = words_of(remark, drawn_, character_.code, strokes_);
+    remark.reason = std::move(words.english);
+    remark.reason_zh = std::move(words.chinese);
     remarks_.push_back(std::move(remark));
   }
 

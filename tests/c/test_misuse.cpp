@@ -155,6 +155,8 @@ std::vector<HandleCall> handle_calls(Everything& all) {
       {"match_drawn", "match", [](void* h) { return calligraphy_match_drawn(as<Match>(h), 0, &drawn); }},
       {"match_remark_count", "match", [](void* h) { return calligraphy_match_remark_count(as<Match>(h), &number); }},
       {"match_remark", "match", [](void* h) { return calligraphy_match_remark(as<Match>(h), 0, &remark, nullptr); }},
+      {"match_remark_text", "match",
+       [](void* h) { return calligraphy_match_remark_text(as<Match>(h), 0, CALLIGRAPHY_LANGUAGE_CHINESE, &text); }},
       {"recording_add", "recording", [&](void* h) { return calligraphy_recording_add(as<Recording>(h), &all.tick); }},
       {"score_recording", "recording",
        [](void* h) { return calligraphy_score_recording(as<Recording>(h), CALLIGRAPHY_TOLERANCE_NORMAL, &score); }},
@@ -363,6 +365,7 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
   calligraphy_device* device = nullptr;
   calligraphy_renderer* renderer = nullptr;
   calligraphy_match* match = nullptr;
+  const char* text = nullptr;
   calligraphy_recording* recording = nullptr;
   calligraphy_score* score = nullptr;
   std::size_t count = 0;
@@ -494,6 +497,12 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
        [&] { return calligraphy_match_strokes(all.page.get(), 0, points, nullptr, 1, normal, &match); }},
       {"match", value, "not finite",
        [&] { return calligraphy_match_strokes(all.page.get(), 0, nan, &one_point, 1, normal, &match); }},
+      {"remark", value, "language = 2, must be 0 to 1",
+       [&] { return calligraphy_match_remark_text(all.match.get(), 0, 2, &text); }},
+      {"remark", value, "language = -1, must be 0 to 1",
+       [&] { return calligraphy_match_remark_text(all.match.get(), 0, -1, &text); }},
+      {"remark", value, "text is null",
+       [&] { return calligraphy_match_remark_text(all.match.get(), 0, CALLIGRAPHY_LANGUAGE_ENGLISH, nullptr); }},
       {"match", value, "path = 0",
        [&] {
          auto drawn = sized<calligraphy_drawn_stroke>();

@@ -119,6 +119,8 @@ void check_match(const calligraphy_match* here, const MatchResult& there) {
   for (std::int32_t i = 0; i < count; ++i) {
     REQUIRE(calligraphy_match_remark(here, i, nullptr, &reason) == CALLIGRAPHY_OK);
     CHECK(reason == there.remarks[static_cast<std::size_t>(i)].reason);
+    REQUIRE(calligraphy_match_remark_text(here, i, CALLIGRAPHY_LANGUAGE_CHINESE, &reason) == CALLIGRAPHY_OK);
+    CHECK(reason == there.remarks[static_cast<std::size_t>(i)].reason_zh);
   }
 }
 

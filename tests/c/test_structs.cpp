@@ -415,8 +415,15 @@ TEST_CASE("pen-downs are matched as in C++, with remarks for people") {
     CHECK(remark.other_character == there.other_character);
     CHECK((Point(remark.place[0], remark.place[1]) - there.place).norm() < 1e-9);
     CHECK(reason == there.reason);
+    REQUIRE(calligraphy_match_remark_text(match.get(), i, CALLIGRAPHY_LANGUAGE_ENGLISH, &reason) == CALLIGRAPHY_OK);
+    CHECK(reason == there.reason);
+    REQUIRE(calligraphy_match_remark_text(match.get(), i, CALLIGRAPHY_LANGUAGE_CHINESE, &reason) == CALLIGRAPHY_OK);
+    CHECK(reason == there.reason_zh);
+    CHECK(there.reason != there.reason_zh);
   }
   CHECK(calligraphy_match_remark(match.get(), count, &remark, nullptr) == CALLIGRAPHY_INVALID_VALUE);
+  CHECK(calligraphy_match_remark_text(match.get(), count, CALLIGRAPHY_LANGUAGE_CHINESE, &reason) ==
+        CALLIGRAPHY_INVALID_VALUE);
 }
 
 TEST_CASE("the version of the header is that of the library") {
@@ -475,6 +482,8 @@ TEST_CASE("the names of C are the values of C++") {
   CHECK(CALLIGRAPHY_SERVO_FALLING == static_cast<int>(ServoPhase::falling));
   CHECK(CALLIGRAPHY_NEITHER == static_cast<int>(WritingDirection::neither));
   CHECK(CALLIGRAPHY_UNKNOWN_DIRECTION == static_cast<int>(WritingDirection::unknown));
+  CHECK(CALLIGRAPHY_LANGUAGE_ENGLISH == 0);
+  CHECK(CALLIGRAPHY_LANGUAGE_CHINESE == 1);
   CHECK(CALLIGRAPHY_REMARK_SHAPE == static_cast<int>(StrokeRemarkKind::shape));
   CHECK(CALLIGRAPHY_REMARK_JOINED == static_cast<int>(StrokeRemarkKind::joined));
   CHECK(CALLIGRAPHY_REMARK_BROKEN == static_cast<int>(StrokeRemarkKind::broken));

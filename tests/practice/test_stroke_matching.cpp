@@ -205,17 +205,18 @@ TEST_CASE("three parallel lines are identified by their positions", "[practice]"
     CHECK(match.remarks[0].kind == StrokeRemarkKind::order);
     CHECK(match.remarks[0].path == 1);
     CHECK(match.remarks[0].stroke == 2);
-    CHECK(match.remarks[0].reason == "stroke 3 (héng) was written where stroke 2 (héng) was due");
+    CHECK(match.remarks[0].reason == "Stroke 3 (héng) came too early: write stroke 2 (héng) first.");
   }
   SECTION("the first last") {
     const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[1], lines[2], lines[0]});
     REQUIRE(match.remarks.size() == 1);
-    CHECK(match.remarks[0].reason == "stroke 1 (héng) was written only after stroke 3 (héng)");
+    CHECK(match.remarks[0].reason == "Stroke 1 (héng) came too late: write it first.");
   }
   SECTION("from the bottom up") {
     const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[2], lines[1], lines[0]});
     REQUIRE(match.remarks.size() == 1);
-    CHECK(match.remarks[0].reason == "strokes 1 (héng) to 3 (héng) were written from the last to the first");
+    CHECK(match.remarks[0].reason ==
+          "Strokes 1 to 3 were written from the last to the first: begin with stroke 1 (héng).");
     CHECK(match.remarks[0].path_count == 3);
     CHECK(match.remarks[0].stroke_count == 3);
   }
@@ -234,7 +235,7 @@ TEST_CASE("three parallel lines are identified by their positions", "[practice]"
     const MatchResult match = match_strokes(three, drawn);
     REQUIRE(match.remarks.size() == 1);
     CHECK(match.remarks[0].kind == StrokeRemarkKind::direction);
-    CHECK(match.remarks[0].reason == "stroke 2 (héng) was written backwards");
+    CHECK(match.remarks[0].reason == "Stroke 2 (héng) was written backwards: start at the left.");
   }
 }
 
@@ -326,7 +327,7 @@ TEST_CASE("of a stroke that was only begun it is told that only a part was writt
         CAPTURE(text, stroke, share, told(match));
         REQUIRE(match.remarks.size() == 1);
         CHECK(match.remarks[0].stroke == static_cast<int>(stroke));
-        CHECK(match.remarks[0].reason.find("only a part of stroke") == 0);
+        CHECK(match.remarks[0].reason.find("Only a part of stroke") == 0);
       }
     }
   }
@@ -394,7 +395,7 @@ TEST_CASE("a remark has all pen-downs and strokes that it is about, and a place 
     CHECK(remark.path == 1);
     CHECK(remark.path_count == 2);
     CHECK(remark.stroke == 1);
-    CHECK(remark.reason == "stroke 2 (héngzhégōu) was written in two pen-downs, 2 and 3");
+    CHECK(remark.reason == "Stroke 2 (héngzhégōu) is in two pieces: draw it in one go.");
   }
   SECTION("extra") {
     drawn.insert(drawn.begin() + 1, strokes[0]);
@@ -414,7 +415,7 @@ TEST_CASE("crossing strokes are identified by their orientation", "[practice]") 
   std::swap(drawn[0], drawn[1]);
   const MatchResult match = match_strokes(ten, drawn);
   REQUIRE(match.remarks.size() == 1);
-  CHECK(match.remarks[0].reason == "stroke 2 (shù) was written where stroke 1 (héng) was due");
+  CHECK(match.remarks[0].reason == "Stroke 2 (shù) came too early: write stroke 1 (héng) first.");
 }
 
 TEST_CASE("strokes written without lifting the pen are joined, not an order mistake", "[practice]") {
@@ -553,7 +554,7 @@ TEST_CASE("an additional pen-down is extra, and a bounce is ignored", "[practice
     CHECK(match.remarks[0].kind == StrokeRemarkKind::extra);
     CHECK(match.remarks[0].path == 2);
     CHECK(match.remarks[0].stroke == -1);
-    CHECK(match.remarks[0].reason == "pen-down 3 resembles none of the strokes");
+    CHECK(match.remarks[0].reason == "Your 3rd line is one too many: leave it out.");
   }
   SECTION("a short line across a dot is no attempt at it") {
     const Character eternal = character_of("永");
@@ -572,7 +573,7 @@ TEST_CASE("an additional pen-down is extra, and a bounce is ignored", "[practice
     const MatchResult match = match_strokes(ten, drawn);
     REQUIRE(match.remarks.size() == 1);
     CHECK(match.remarks[0].kind == StrokeRemarkKind::extra);
-    CHECK(match.remarks[0].reason == "pen-down 3 is another attempt at stroke 1 (héng), which pen-down 1 wrote");
+    CHECK(match.remarks[0].reason == "Your 3rd line writes stroke 1 (héng) once more: once is enough.");
   }
   SECTION("a bounce beside the page") {
     drawn.insert(drawn.begin() + 1, PenPath{{1.3, 1.2}, {1.305, 1.2}});
@@ -604,7 +605,7 @@ TEST_CASE("a stroke written backwards and at once corrected was written forwards
       REQUIRE(match.remarks.size() == 1);
       CHECK(match.remarks[0].kind == StrokeRemarkKind::extra);
       CHECK(match.remarks[0].path == static_cast<int>(stroke) + (corrected ? 0 : 1));
-      CHECK(match.remarks[0].reason.find("backwards, which pen-down") != std::string::npos);
+      CHECK(match.remarks[0].reason.find(" backwards: start at the ") != std::string::npos);
       CHECK(match.drawn[stroke + (corrected ? 1 : 0)].stroke == static_cast<int>(stroke));
     }
   }

@@ -82,7 +82,10 @@ class Replay(ReplayTest):
         self.assertEqual(self.remarks(character("三", [one, three, two])), [[("order", 2, 3)]])
         self.assertEqual(self.remarks(character("三", [three, two, one])), [[("order", 1, 1)]])
         text = self.run_program("replay", self.traces(character("三", [one, three, two]))).stdout
-        self.assertIn("stroke 3 (héng) was written where stroke 2 (héng) was due", text)
+        self.assertIn("  1 三  Stroke 3 (héng) came too early: write stroke 2 (héng) first.\n", text)
+        chinese = self.run_program("replay", "pens.txt", "--language", "zh").stdout
+        self.assertEqual(chinese, text.replace("Stroke 3 (héng) came too early: write stroke 2 (héng) first.",
+                                               "第3笔（横）写早了，先写第2笔（横）。"))
         self.assertIn("0 of 1 without a remark, 0 in the correct order, 1 in the correct direction", text)
 
     def test_a_stroke_written_from_its_end_is_a_direction_mistake(self):

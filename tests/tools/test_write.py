@@ -43,6 +43,27 @@ class Write(ProgramTest):
                          (1, "calligraphy: strokes.svg: cannot be written: File too large\n"))
         self.assertEqual(self.files(), [])
 
+    def test_remarks_are_printed_in_either_language_unless_there_are_many(self):
+        def said(printed, language):
+            remarks = [(row, remark[language]) for row in self.summary() for remark in row["remarks"]]
+            self.assertGreater(len(remarks), 1)
+            lines = [f"  1 永  {row['mode']}  {text}" for row, text in remarks]
+            self.assertEqual(printed.splitlines()[-len(lines) - 1:], ["", *lines])
+            return [text for _, text in remarks]
+
+        arguments = ["write", "永", "--seed", "2", "--out", "out"]
+        english = said(self.run_program(*arguments).stdout, "reason")
+        self.assertIn("Your 1st line is stroke 1 (diǎn) backwards: start at the top left.", english)
+        chinese = said(self.run_program(*arguments, "--language", "zh").stdout, "reason_zh")
+        self.assertIn("你写的第1笔把第1笔（点）写反了，从左上方起笔。", chinese)
+        self.assert_refused(2, [*arguments, "--language", "fr"], "--language", "fr")
+
+        printed = self.run_program("write", "永", "--mode", "vision", "--repeat", "100", "--out", "many").stdout
+        rows = json.loads((self.directory / "many/summary.json").read_text())["results"]
+        count = sum(len(row["remarks"]) for row in rows)
+        self.assertGreater(count, 20)
+        self.assertTrue(printed.endswith(f"\n\n{count} remarks: see summary.json\n"), printed)
+
     def test_results_up_to_ctrl_c_are_saved(self):
         printed, told = self.interrupted("write", "一", "--mode", "force", "--repeat", "100000", "--out", "out",
                                          once="out/01-一-force.csv")
@@ -169,7 +190,7 @@ class Write(ProgramTest):
         for repeat, words in (("1", "n = 1 pair of runs: too few to show an effect of force; try --repeat 20"),
                               ("9", "n = 9 pairs of runs: too few")):
             text = self.run_program("write", "一", "--out", "out", "--repeat", repeat).stdout
-            self.assertIn(words, text.splitlines()[-1])
+            self.assertIn(words, text)
             self.assertNotIn("less with force", text)
         text = self.run_program("write", "一", "--out", "out", "--mode", "force").stdout
         self.assertNotIn("too few", text, "there is nothing to compare")

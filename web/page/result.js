@@ -47,6 +47,9 @@ function remarksOf(lesson, score) {
   const list = create("ol", "remarks");
   score.remarks.forEach((remark, i) => {
     const item = create("li"), button = create("button", "", remark.reason);
+    const chinese = create("small", "", remark.reason_zh);
+    chinese.lang = "zh";
+    button.append(chinese);
     const show = () => lesson.point(() => markRemarks(lesson, score, i));
     for (const event of ["pointerenter", "focus", "click"]) button.addEventListener(event, show);
     for (const event of ["pointerleave", "blur"]) {

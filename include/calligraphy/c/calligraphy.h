@@ -646,9 +646,21 @@ typedef struct calligraphy_remark {
 /// Number of remarks.
 CALLIGRAPHY_API calligraphy_status calligraphy_match_remark_count(const calligraphy_match* match, int32_t* count);
 
-/// The remark with this index, and one sentence for people, in UTF-8 and valid as long as the match. Both are optional.
+/// The remark with this index, and what is wrong and what to do, in a sentence or two for people, in English. The text
+/// is in UTF-8 and valid as long as the match. Both are optional.
 CALLIGRAPHY_API calligraphy_status calligraphy_match_remark(const calligraphy_match* match, int32_t index,
                                                             calligraphy_remark* remark, const char** reason);
+
+/// Language of a text for people.
+typedef enum calligraphy_language {
+  CALLIGRAPHY_LANGUAGE_ENGLISH = 0,  ///< as calligraphy_match_remark() has it
+  CALLIGRAPHY_LANGUAGE_CHINESE = 1   ///< simplified
+} calligraphy_language;
+
+/// What the remark with this index says to people, in UTF-8 and valid as long as the match. `language`: a
+/// calligraphy_language.
+CALLIGRAPHY_API calligraphy_status calligraphy_match_remark_text(const calligraphy_match* match, int32_t index,
+                                                                 int32_t language, const char** text);
 
 // How well it was written.
 

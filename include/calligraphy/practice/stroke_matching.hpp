@@ -67,7 +67,8 @@ struct StrokeRemark {
   Point place = Point::Zero();   ///< to point at: on what was written, or where a missing stroke belongs beside it [em]
   /// How sure or how grave it is: 1 where StrokeTolerances::normal() begins to tell it; infinite: always told [1].
   double evidence = std::numeric_limits<double>::infinity();
-  std::string reason = {};  ///< one sentence for people
+  std::string reason = {};     ///< what is wrong and what to do, in a sentence or two for people, in English
+  std::string reason_zh = {};  ///< the same in simplified Chinese
 };
 
 /// Result of match_strokes().
