@@ -76,7 +76,7 @@ void add_language_option(CLI::App& command, Language& language) {
       .add_option_function<std::string>(
           "--language",
           [&language](const std::string& name) { language = name == "zh" ? Language::chinese : Language::english; },
-          "Language in which remarks are printed: English or Chinese")
+          "Language of the remarks: English or Chinese")
       ->check(CLI::IsMember({"en", "zh"}))
       ->default_str("en");
 }

@@ -9,9 +9,8 @@
 #include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/pictures/stroke_style.hpp>
 #include <calligraphy/practice/page.hpp>
+#include <calligraphy/practice/stroke_matching.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
-
-#include "language.hpp"
 
 namespace calligraphy::tools {
 
@@ -47,7 +46,7 @@ struct PageChoice {
   PageLayout layout(const Capabilities& device) const { return workspace_layout(device, mapping(0.0, 0.0)); }
 };
 
-/// Adds --language en|zh, in which remarks are printed.
+/// Adds --language en|zh, that of remarks.
 void add_language_option(CLI::App& command, Language& language);
 
 /// Adds --lines, which draws strokes as lines instead of ink.

@@ -184,7 +184,7 @@ class ReplayRun {
           fmt::format("{}, {}, {}", encode_utf8(character.code), chosen.trace.set, report_.device);
       const std::vector<PenPath> guided = pen_paths(recording, page.characters.front().placement);
       out->write(fmt::format("{:02}-{}.svg", chosen.position, name_in_file(character.code)),
-                 replay_picture(character, paths, result.match, guided, title, options_.style));
+                 replay_picture(character, paths, result.match, guided, title, options_.style, options_.language));
     }
     report_.traces.push_back(std::move(result));
   }

@@ -160,7 +160,7 @@ std::string table(const ReplayReport& report, Language language) {
                         fmt::format("{}/{}", trace.guided.strokes_completed, trace.guided.stroke_count), trace.faults,
                         trace.guided.peak_force, trace.guided.max_force_step);
     for (const StrokeRemark& remark : match.remarks) {
-      remarks += fmt::format("{:>3} {}  {}\n", trace.position, character, words(remark, language));
+      remarks += fmt::format("{:>3} {}  {}\n", trace.position, character, reason_in(remark, language));
     }
   }
   text += fmt::format("limits of {}: force {:.2f} N, force step {:.3f} N/tick\n", report.device, report.peak_force,

@@ -8,8 +8,6 @@
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/stroke_matching.hpp>
 
-#include "language.hpp"
-
 namespace calligraphy::tools {
 
 /// Result of one trace.

@@ -294,7 +294,7 @@ std::string remarks(const Summary& summary, Language language) {
     for (const StrokeRemark& remark : result.score.match.remarks) {
       ++count;
       text += fmt::format("{:>3} {}  {}{}  {}\n", result.position, encode_utf8(result.score.character),
-                          to_string(result.mode), of, words(remark, language));
+                          to_string(result.mode), of, reason_in(remark, language));
     }
   }
   if (count == 0) return "";

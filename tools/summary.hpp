@@ -7,8 +7,7 @@
 
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
-
-#include "language.hpp"
+#include <calligraphy/practice/stroke_matching.hpp>
 
 namespace calligraphy::tools {
 

@@ -89,7 +89,7 @@ calligraphy_status calligraphy_match_remark_text(const calligraphy_match* match,
                                                  const char** text) {
   return guarded([&] {
     const StrokeRemark& found = item("index", object<MatchResult>(match).remarks, index);
-    const calligraphy_language chosen = enumeration("language", language, CALLIGRAPHY_LANGUAGE_CHINESE);
-    target(text, "text") = chosen == CALLIGRAPHY_LANGUAGE_CHINESE ? found.reason_zh.c_str() : found.reason.c_str();
+    const Language chosen = enumeration("language", language, Language::chinese);
+    target(text, "text") = reason_in(found, chosen).c_str();
   });
 }

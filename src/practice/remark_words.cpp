@@ -73,7 +73,7 @@ class Words {
       const int last = remark_.stroke + remark_.stroke_count;
       return {"Strokes " + english_number(remark_.stroke) + " to " + std::to_string(last) +
                   " were written from the last to the first: begin with stroke " + english(remark_.stroke) + ".",
-              chinese_number(remark_.stroke) + "到第" + std::to_string(last) + "笔从后往前写了，要从" +
+              chinese_number(remark_.stroke) + "到第" + std::to_string(last) + "笔的笔顺全反了，要从" +
                   chinese(remark_.stroke) + "写起。"};
     }
     if (remark_.other_path >= 0) {
@@ -99,19 +99,19 @@ class Words {
       const Ends ends = ends_of(remark_.stroke);
       return {english_strokes() + " were written backwards: begin with stroke " + english_number(remark_.stroke) +
                   (ends.is_closed ? "." : ", at the " + std::string(ends.start.english) + "."),
-              chinese_strokes() + "写反了，先写" + chinese_number(remark_.stroke) +
+              chinese_strokes() + "的方向反了，先写" + chinese_number(remark_.stroke) +
                   (ends.is_closed ? "。" : "，从" + std::string(ends.start.chinese) + "起笔。")};
     }
     const RemarkWords start = start_of(remark_.stroke);
     return {english_strokes() + " was written backwards: " + start.english + ".",
-            chinese_strokes() + "写反了，" + start.chinese + "。"};
+            chinese_strokes() + "的方向反了，" + start.chinese + "。"};
   }
 
   RemarkWords shape() const {
     const RemarkWords way = way_of_all();
     return {english_strokes() + (is_several() ? " do" : " does") +
                 " not look right: " + (way.english.empty() ? "follow the model." : "draw it " + way.english + "."),
-            chinese_strokes() + "的形状不对，" + (way.chinese.empty() ? "请照着范字写。" : way.chinese + "。")};
+            chinese_strokes() + "的形状不太对，" + (way.chinese.empty() ? "请照着范字写。" : way.chinese + "。")};
   }
 
   RemarkWords part() const {
@@ -145,12 +145,12 @@ class Words {
     const std::string chinese_line = "你写的" + chinese_number(remark_.path);
     const int other = remark_.other_stroke;
     if (other < 0) {
-      return {english_line + "is one too many: leave it out.", chinese_line + "是多余的，不要写。"};
+      return {english_line + "is one too many: leave it out.", chinese_line + "是多余的，不用写。"};
     }
     if (direction == WritingDirection::backwards) {
       const RemarkWords start = start_of(other);
       return {english_line + "is stroke " + english(other) + " backwards: " + start.english + ".",
-              chinese_line + "把" + chinese(other) + "写反了，" + start.chinese + "。"};
+              chinese_line + "是" + chinese(other) + "，但方向反了，" + start.chinese + "。"};
     }
     if (remark_.other_path < 0) {
       return {english_line + "is not quite stroke " + english(other) + ": follow the model.",

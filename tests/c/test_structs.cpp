@@ -482,8 +482,8 @@ TEST_CASE("the names of C are the values of C++") {
   CHECK(CALLIGRAPHY_SERVO_FALLING == static_cast<int>(ServoPhase::falling));
   CHECK(CALLIGRAPHY_NEITHER == static_cast<int>(WritingDirection::neither));
   CHECK(CALLIGRAPHY_UNKNOWN_DIRECTION == static_cast<int>(WritingDirection::unknown));
-  CHECK(CALLIGRAPHY_LANGUAGE_ENGLISH == 0);
-  CHECK(CALLIGRAPHY_LANGUAGE_CHINESE == 1);
+  CHECK(CALLIGRAPHY_LANGUAGE_ENGLISH == static_cast<int>(Language::english));
+  CHECK(CALLIGRAPHY_LANGUAGE_CHINESE == static_cast<int>(Language::chinese));
   CHECK(CALLIGRAPHY_REMARK_SHAPE == static_cast<int>(StrokeRemarkKind::shape));
   CHECK(CALLIGRAPHY_REMARK_JOINED == static_cast<int>(StrokeRemarkKind::joined));
   CHECK(CALLIGRAPHY_REMARK_BROKEN == static_cast<int>(StrokeRemarkKind::broken));

@@ -49,6 +49,9 @@ TEST_CASE("a replay picture shows mistakes in red, lists them, and omits bounces
   CHECK(count(document, "//g[@class='drawn-number']/text") == 2);
   CHECK(count(document, "//g[@class='written']/path[@stroke='#e02020']") == 1);
   CHECK(text.find(match.remarks.at(0).reason) != std::string::npos);
+  const std::string chinese = replay_picture(ten, paths, match, {}, "<十>", StrokeStyle::ink, Language::chinese);
+  CHECK(chinese.find(match.remarks.at(0).reason_zh) != std::string::npos);
+  CHECK(chinese.find(match.remarks.at(0).reason) == std::string::npos);
 }
 
 TEST_CASE("a replay picture shows the template as ink, or as lines, and pen paths as lines", "[practice]") {

@@ -88,7 +88,7 @@ TEST_CASE("of strokes out of order it is said which to write first", "[practice]
              "第1笔（点）和第4笔（撇）先后颠倒了，先写第1笔。"));
   CHECK(said(Kind::order, three, in_order(three, {2, 1, 0})) ==
         Said("Strokes 1 to 3 were written from the last to the first: begin with stroke 1 (héng).",
-             "第1笔到第3笔从后往前写了，要从第1笔（横）写起。"));
+             "第1笔到第3笔的笔顺全反了，要从第1笔（横）写起。"));
 }
 
 TEST_CASE("of a stroke written backwards it is said where to start, in eight directions", "[practice]") {
@@ -104,19 +104,19 @@ TEST_CASE("of a stroke written backwards it is said where to start, in eight dir
       CAPTURE(i, beside);
       CHECK(said(Kind::direction, line, {backwards(copy_of(line)[0])}) ==
             Said("Stroke 1 (héng) was written backwards: start at the " + starts[i].first + ".",
-                 "第1笔（横）写反了，从" + starts[i].second + "起笔。"));
+                 "第1笔（横）的方向反了，从" + starts[i].second + "起笔。"));
     }
   }
   const Character eternal = built_in("永");
   CHECK(said({.kind = Kind::direction, .path = 0, .stroke = 3, .stroke_count = 2}, eternal) ==
         Said("Strokes 4 (piě) and 5 (nà) were written backwards: begin with stroke 4, at the top right.",
-             "第4笔（撇）和第5笔（捺）写反了，先写第4笔，从右上方起笔。"));
+             "第4笔（撇）和第5笔（捺）的方向反了，先写第4笔，从右上方起笔。"));
   // A stroke that ends where it starts.
   const StrokeInput round{1, {{0.5, 0.9}, {-0.3, 0.0}, {1.3, 0.0}, {0.51, 0.9}}, {}, {"C"}};
   const Character ring = make_character(U'〇', {&round, 1});
   CHECK(said({.kind = Kind::direction, .path = 0, .stroke = 0, .stroke_count = 1}, ring) ==
         Said("Stroke 1 (héng) was written backwards: start where the model starts.",
-             "第1笔（横）写反了，请照着范字起笔。"));
+             "第1笔（横）的方向反了，请照着范字起笔。"));
 }
 
 TEST_CASE("of a stroke of another shape it is said from where to where it goes, unless it bends", "[practice]") {
@@ -124,13 +124,13 @@ TEST_CASE("of a stroke of another shape it is said from where to where it goes, 
   const StrokeRemark remark{.kind = Kind::shape, .path = 0, .stroke = 3, .stroke_count = 1};
   CHECK(said(remark, eternal) ==
         Said("Stroke 4 (piě) does not look right: draw it from the top right to the bottom left.",
-             "第4笔（撇）的形状不对，从右上方写到左下方。"));
+             "第4笔（撇）的形状不太对，从右上方写到左下方。"));
   const StrokeRemark hooked{.kind = Kind::shape, .path = 0, .stroke = 1, .stroke_count = 1};
   CHECK(said(hooked, eternal) == Said("Stroke 2 (héngzhégōu) does not look right: follow the model.",
-                                      "第2笔（横折钩）的形状不对，请照着范字写。"));
+                                      "第2笔（横折钩）的形状不太对，请照着范字写。"));
   const StrokeRemark several{.kind = Kind::shape, .path = 0, .stroke = 0, .stroke_count = 2};
   CHECK(said(several, ten) == Said("Strokes 1 (héng) and 2 (shù) do not look right: follow the model.",
-                                   "第1笔（横）和第2笔（竖）的形状不对，请照着范字写。"));
+                                   "第1笔（横）和第2笔（竖）的形状不太对，请照着范字写。"));
 
   std::vector<PenPath> drawn = copy_of(ten);
   drawn[1] = points_along(drawn[1], 0.2 * path_length(drawn[1]), 12);
@@ -193,7 +193,7 @@ TEST_CASE("of a line too many it is said by its number to leave it out, or how t
   drawn.pop_back();
   drawn.insert(drawn.begin(), backwards(drawn[0]));
   CHECK(said(Kind::extra, ten, drawn) == Said("Your 1st line is stroke 1 (héng) backwards: start at the left.",
-                                              "你写的第1笔把第1笔（横）写反了，从左边起笔。"));
+                                              "你写的第1笔是第1笔（横），但方向反了，从左边起笔。"));
   CHECK(said({.kind = Kind::extra, .path = 5, .path_count = 1, .other_stroke = 4}, eternal) ==
         Said("Your 6th line is not quite stroke 5 (nà): follow the model.",
              "你写的第6笔不太像第5笔（捺），请照着范字写。"));
@@ -203,7 +203,7 @@ TEST_CASE("of a line too many it is said by its number to leave it out, or how t
   for (const auto& [number, ordinal] : ordinals) {
     CHECK(said({.kind = Kind::extra, .path = number - 1, .path_count = 1}, ten) ==
           Said("Your " + ordinal + " line is one too many: leave it out.",
-               "你写的第" + std::to_string(number) + "笔是多余的，不要写。"));
+               "你写的第" + std::to_string(number) + "笔是多余的，不用写。"));
   }
 }
 

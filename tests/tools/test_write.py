@@ -55,7 +55,7 @@ class Write(ProgramTest):
         english = said(self.run_program(*arguments).stdout, "reason")
         self.assertIn("Your 1st line is stroke 1 (diǎn) backwards: start at the top left.", english)
         chinese = said(self.run_program(*arguments, "--language", "zh").stdout, "reason_zh")
-        self.assertIn("你写的第1笔把第1笔（点）写反了，从左上方起笔。", chinese)
+        self.assertIn("你写的第1笔是第1笔（点），但方向反了，从左上方起笔。", chinese)
         self.assert_refused(2, [*arguments, "--language", "fr"], "--language", "fr")
 
         printed = self.run_program("write", "永", "--mode", "vision", "--repeat", "100", "--out", "many").stdout

@@ -111,7 +111,7 @@ testPage("strokes backwards, out of order and lifted midway are refused, and rem
   const { rows, remarks } = await tab.result();
   assert.equal(rows["Right at once"], "3 of 5");
   assert.equal(remarks.length, 3, remarks.join("; "));
-  assert.match(remarks[0], /backwards.*写反了/s);
+  assert.match(remarks[0], /backwards.*方向反了/s);
   const numbers = await tab.countPixels("marks"), marks = new Set();
   for (let i = 0; i < remarks.length; ++i) {
     await tab.page.locator("#result .remarks button").nth(i).hover();

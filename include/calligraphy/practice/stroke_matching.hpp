@@ -71,6 +71,14 @@ struct StrokeRemark {
   std::string reason_zh = {};  ///< the same in simplified Chinese
 };
 
+/// Language of what people are told; Chinese is simplified.
+enum class Language { english, chinese };
+
+/// What a remark says in a language.
+inline const std::string& reason_in(const StrokeRemark& remark, Language language) {
+  return language == Language::chinese ? remark.reason_zh : remark.reason;
+}
+
 /// Result of match_strokes().
 struct MatchResult {
   std::vector<DrawnStroke> drawn;     ///< one per pen-down, in the order of writing
