@@ -55,8 +55,9 @@ int third_of(double value, double least, double most) {
   return std::clamp(static_cast<int>(3.0 * (value - least) / (most - least)), 0, 2);
 }
 
-/// "1st", "2nd", "3rd", "4th", "11th", "21st"
-std::string ordinal(int number) {
+/// "1st", "2nd", "3rd", "4th", "11th", "21st" of an index from 0
+std::string ordinal(int index) {
+  const int number = index + 1;
   const int last = number % 10;
   const bool is_regular = number / 10 % 10 == 1 || last < 1 || last > 3;
   constexpr std::array<const char*, 3> endings = {"st", "nd", "rd"};
@@ -141,7 +142,7 @@ class Words {
   }
 
   RemarkWords extra(WritingDirection direction) const {
-    const std::string english_line = "Your " + ordinal(remark_.path + 1) + " line ";
+    const std::string english_line = "Your " + ordinal(remark_.path) + " line ";
     const std::string chinese_line = "你写的" + chinese_number(remark_.path);
     const int other = remark_.other_stroke;
     if (other < 0) {
@@ -156,8 +157,11 @@ class Words {
       return {english_line + "is not quite stroke " + english(other) + ": follow the model.",
               chinese_line + "不太像" + chinese(other) + "，请照着范字写。"};
     }
-    return {english_line + "writes stroke " + english(other) + " once more: once is enough.",
-            chinese_line + "又写了一次" + chinese(other) + "，写一次就够了。"};
+    const auto [first, second] = std::minmax(remark_.path, remark_.other_path);
+    return {"Your " + ordinal(first) + " and " + ordinal(second) + " lines are both stroke " + english(other) +
+                ": write it only once, in its turn.",
+            "你写的" + chinese_number(first) + "和" + chinese_number(second) + "都是" + chinese(other) +
+                "，按笔顺写一次就够了。"};
   }
 
  private:

@@ -179,7 +179,8 @@ TEST_CASE("of a missing stroke it is said where it belongs", "[practice]") {
   const Character three = built_in("三");
   CHECK(said(Kind::missing, three, in_order(three, {0, 1})) ==
         Said("Stroke 3 (héng) is missing: it belongs at the bottom.", "缺少第3笔（横），它应该在下边。"));
-  const MatchResult one = match_strokes(built_in("一"), std::vector<PenPath>());
+  const StrokeInput level{1, {{0.1, 0.5}, {0.9, 0.5}}};
+  const MatchResult one = match_strokes(make_character(U'一', {&level, 1}), std::vector<PenPath>());
   REQUIRE(one.remarks.size() == 1);
   CHECK(one.remarks[0].reason == "Stroke 1 (héng) is missing: it belongs in the middle.");
 }
@@ -188,8 +189,9 @@ TEST_CASE("of a line too many it is said by its number to leave it out, or how t
   const Character ten = built_in("十"), eternal = built_in("永");
   std::vector<PenPath> drawn = copy_of(ten);
   drawn.push_back(drawn[0]);
-  CHECK(said(Kind::extra, ten, drawn) == Said("Your 3rd line writes stroke 1 (héng) once more: once is enough.",
-                                              "你写的第3笔又写了一次第1笔（横），写一次就够了。"));
+  CHECK(said(Kind::extra, ten, drawn) ==
+        Said("Your 1st and 3rd lines are both stroke 1 (héng): write it only once, in its turn.",
+             "你写的第1笔和第3笔都是第1笔（横），按笔顺写一次就够了。"));
   drawn.pop_back();
   drawn.insert(drawn.begin(), backwards(drawn[0]));
   CHECK(said(Kind::extra, ten, drawn) == Said("Your 1st line is stroke 1 (héng) backwards: start at the left.",

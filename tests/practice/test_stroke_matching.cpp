@@ -573,7 +573,8 @@ TEST_CASE("an additional pen-down is extra, and a bounce is ignored", "[practice
     const MatchResult match = match_strokes(ten, drawn);
     REQUIRE(match.remarks.size() == 1);
     CHECK(match.remarks[0].kind == StrokeRemarkKind::extra);
-    CHECK(match.remarks[0].reason == "Your 3rd line writes stroke 1 (héng) once more: once is enough.");
+    CHECK(match.remarks[0].reason ==
+          "Your 1st and 3rd lines are both stroke 1 (héng): write it only once, in its turn.");
   }
   SECTION("a bounce beside the page") {
     drawn.insert(drawn.begin() + 1, PenPath{{1.3, 1.2}, {1.305, 1.2}});
