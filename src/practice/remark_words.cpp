@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,40 +18,35 @@
 namespace calligraphy {
 namespace {
 
-constexpr double closed = 0.2;     // ends nearer to each other, of its length: no side is where it starts [1]
-constexpr double straight = 0.85;  // ends nearer to each other: to name them does not tell the way [1]
-constexpr double flat = 0.15;      // a character of a smaller height or width has no top or no left [em]
+constexpr double straight = 0.85;  // ends nearer to each other, of its length: they do not tell the way [1]
+constexpr double flat = 0.4;       // a side of a box that is shorter, of the longer: nothing is said along it [1]
 
-struct Side {
+struct Place {
   std::string_view english;
   std::string_view chinese;
 };
 
-/// Counter-clockwise, each opposite to the fourth from it.
-constexpr std::array<Side, 8> sides = {{{"right", "右边"},
-                                        {"top right", "右上方"},
-                                        {"top", "上边"},
-                                        {"top left", "左上方"},
-                                        {"left", "左边"},
-                                        {"bottom left", "左下方"},
-                                        {"bottom", "下边"},
-                                        {"bottom right", "右下方"}}};
+/// Of a box, from the bottom left, row by row.
+constexpr std::array<Place, 9> places = {{{"bottom left", "左下方"},
+                                          {"bottom", "下边"},
+                                          {"bottom right", "右下方"},
+                                          {"left", "左边"},
+                                          {"middle", "中间"},
+                                          {"right", "右边"},
+                                          {"top left", "左上方"},
+                                          {"top", "上边"},
+                                          {"top right", "右上方"}}};
+constexpr std::size_t middle_of_box = 4;
 
-/// Of a character, from the bottom left, row by row.
-constexpr std::array<Side, 9> thirds = {{{"at the bottom left", "左下方"},
-                                         {"at the bottom", "下边"},
-                                         {"at the bottom right", "右下方"},
-                                         {"at the left", "左边"},
-                                         {"in the middle", "中间"},
-                                         {"at the right", "右边"},
-                                         {"at the top left", "左上方"},
-                                         {"at the top", "上边"},
-                                         {"at the top right", "右上方"}}};
-
-/// 0, 1 or 2.
-int third_of(double value, double least, double most) {
-  if (most - least < flat) return 1;
-  return std::clamp(static_cast<int>(3.0 * (value - least) / (most - least)), 0, 2);
+/// Index in `places` of the third of a box, across and up, in which a point lies.
+std::size_t place_in(const Eigen::AlignedBox2d& box, const Point& point) {
+  const Point sides = box.sizes(), from = point - box.min();
+  std::array<std::size_t, 2> third = {1, 1};
+  for (const int i : {0, 1}) {
+    if (sides[i] <= flat * sides.maxCoeff()) continue;
+    third[static_cast<std::size_t>(i)] = static_cast<std::size_t>(std::clamp(3.0 * from[i] / sides[i], 0.0, 2.0));
+  }
+  return 3 * third[1] + third[0];
 }
 
 /// "1st", "2nd", "3rd", "4th", "11th", "21st" of an index from 0
@@ -99,9 +93,9 @@ class Words {
     if (is_several()) {
       const Ends ends = ends_of(remark_.stroke);
       return {english_strokes() + " were written backwards: begin with stroke " + english_number(remark_.stroke) +
-                  (ends.is_closed ? "." : ", at the " + std::string(ends.start.english) + "."),
+                  (ends.is_told ? ", at the " + std::string(ends.start.english) + "." : "."),
               chinese_strokes() + "的方向反了，先写" + chinese_number(remark_.stroke) +
-                  (ends.is_closed ? "。" : "，从" + std::string(ends.start.chinese) + "起笔。")};
+                  (ends.is_told ? "，从" + std::string(ends.start.chinese) + "起笔。" : "。")};
     }
     const RemarkWords start = start_of(remark_.stroke);
     return {english_strokes() + " was written backwards: " + start.english + ".",
@@ -136,9 +130,10 @@ class Words {
   }
 
   RemarkWords missing() const {
-    const Side place = place_in_character(remark_.stroke);
-    return {english_strokes() + " is missing: it belongs " + std::string(place.english) + ".",
-            "缺少" + chinese_strokes() + "，它应该在" + std::string(place.chinese) + "。"};
+    const std::size_t place = place_in_character(remark_.stroke);
+    return {english_strokes() + " is missing: it belongs " + (place == middle_of_box ? "in" : "at") + " the " +
+                std::string(places[place].english) + ".",
+            "缺少" + chinese_strokes() + "，它应该在" + std::string(places[place].chinese) + "。"};
   }
 
   RemarkWords extra(WritingDirection direction) const {
@@ -166,9 +161,9 @@ class Words {
 
  private:
   struct Ends {
-    Side start, end;
-    bool is_closed;    ///< no side is where it starts
-    bool is_straight;  ///< its ends tell how it runs
+    Place start, end;  ///< in the box of the stroke
+    bool is_told;      ///< they differ, and the start is at a side
+    bool is_straight;  ///< they tell how the stroke runs
   };
 
   bool is_several() const { return remark_.stroke_count > 1; }
@@ -202,20 +197,24 @@ class Words {
     return chinese(remark_.stroke) + (remark_.stroke_count == 2 ? "和" : "到") + chinese(last());
   }
 
-  /// Where a stroke starts and ends, each as seen from the other.
+  static Eigen::AlignedBox2d box_of(const std::vector<Point>& path) {
+    Eigen::AlignedBox2d box;
+    for (const Point& point : path) box.extend(point);
+    return box;
+  }
+
   Ends ends_of(int index) const {
     const std::vector<Point> path = middle_line_of(at(index));
-    const Point chord = path.front() - path.back();
-    const double length = path_length(path);
-    const double eighths = std::atan2(chord.y(), chord.x()) / (std::numbers::pi / 4.0);
-    const auto start = static_cast<std::size_t>(std::lround(eighths) + 8) % 8;
-    return {sides[start], sides[(start + 4) % 8], chord.norm() <= closed * length, chord.norm() >= straight * length};
+    const Eigen::AlignedBox2d box = box_of(path);
+    const std::size_t start = place_in(box, path.front()), end = place_in(box, path.back());
+    return {places[start], places[end], start != end && start != middle_of_box,
+            (path.front() - path.back()).norm() >= straight * path_length(path)};
   }
 
   /// "start at the left"
   RemarkWords start_of(int index) const {
     const Ends ends = ends_of(index);
-    if (ends.is_closed) return {"start where the model starts", "请照着范字起笔"};
+    if (!ends.is_told) return {"start where the model starts", "请照着范字起笔"};
     return {"start at the " + std::string(ends.start.english), "从" + std::string(ends.start.chinese) + "起笔"};
   }
 
@@ -228,17 +227,12 @@ class Words {
             "从" + std::string(ends.start.chinese) + "写到" + std::string(ends.end.chinese)};
   }
 
-  /// The third of the character across and up in which the middle of a stroke lies.
-  Side place_in_character(int index) const {
+  /// Where in the character the middle of a stroke lies.
+  std::size_t place_in_character(int index) const {
     Eigen::AlignedBox2d box;
-    for (const Stroke& stroke : strokes_) {
-      for (const Point& point : middle_line_of(stroke)) box.extend(point);
-    }
+    for (const Stroke& stroke : strokes_) box.extend(box_of(middle_line_of(stroke)));
     const std::vector<Point> path = middle_line_of(at(index));
-    const Point middle = points_along(path, path_length(path), 3)[1];
-    const int column = third_of(middle.x(), box.min().x(), box.max().x());
-    const int row = third_of(middle.y(), box.min().y(), box.max().y());
-    return thirds[static_cast<std::size_t>(3 * row + column)];
+    return place_in(box, points_along(path, path_length(path), 3)[1]);
   }
 
   const StrokeRemark& remark_;

@@ -111,7 +111,15 @@ TEST_CASE("of a stroke written backwards it is said where to start, in eight dir
   CHECK(said({.kind = Kind::direction, .path = 0, .stroke = 3, .stroke_count = 2}, eternal) ==
         Said("Strokes 4 (piě) and 5 (nà) were written backwards: begin with stroke 4, at the top right.",
              "第4笔（撇）和第5笔（捺）的方向反了，先写第4笔，从右上方起笔。"));
-  // A stroke that ends where it starts.
+  // A bent stroke: where in its box it starts, whichever way it goes from there.
+  const StrokeInput folded{1, {{0.5, 0.9}, {-0.2, 0.2}, {0.2, 0.1}, {0.8, 0.2}}, {}, {"C"}};
+  const Character fold = make_character(U'厶', {&folded, 1});
+  CHECK(said({.kind = Kind::direction, .path = 0, .stroke = 0, .stroke_count = 1}, fold)
+            .first.ends_with("start at the top."));
+  // A stroke that starts in its own middle, and one that ends where it starts.
+  const StrokeInput inner{1, {{0.5, 0.5}, {1.4, 1.7}, {-0.4, 1.0}, {0.5, 0.1}}, {}, {"C"}};
+  CHECK(said({.kind = Kind::direction, .path = 0, .stroke = 0, .stroke_count = 1}, make_character(U'回', {&inner, 1}))
+            .first.ends_with("start where the model starts."));
   const StrokeInput round{1, {{0.5, 0.9}, {-0.3, 0.0}, {1.3, 0.0}, {0.51, 0.9}}, {}, {"C"}};
   const Character ring = make_character(U'〇', {&round, 1});
   CHECK(said({.kind = Kind::direction, .path = 0, .stroke = 0, .stroke_count = 1}, ring) ==
@@ -196,6 +204,9 @@ TEST_CASE("of a line too many it is said by its number to leave it out, or how t
   drawn.insert(drawn.begin(), backwards(drawn[0]));
   CHECK(said(Kind::extra, ten, drawn) == Said("Your 1st line is stroke 1 (héng) backwards: start at the left.",
                                               "你写的第1笔是第1笔（横），但方向反了，从左边起笔。"));
+  CHECK(said(Kind::extra, eternal, in_order(eternal, {3, 0, 1, 2, 3, 4})) ==
+        Said("Your 1st and 5th lines are both stroke 4 (piě): write it only once, in its turn.",
+             "你写的第1笔和第5笔都是第4笔（撇），按笔顺写一次就够了。"));
   CHECK(said({.kind = Kind::extra, .path = 5, .path_count = 1, .other_stroke = 4}, eternal) ==
         Said("Your 6th line is not quite stroke 5 (nà): follow the model.",
              "你写的第6笔不太像第5笔（捺），请照着范字写。"));
