@@ -20,6 +20,8 @@
 namespace calligraphy {
 namespace {
 
+constexpr double unlike_all = 0.085;  // price of the best form for each pen-down, from which it is like none [em]
+
 /// Of the pen-downs that wrote nothing and follow each other up to this one, or from it on, one that runs forwards
 /// along a stroke.
 std::optional<std::size_t> correction_beside(const StrokeReading& reading, std::size_t path, std::size_t stroke) {
@@ -168,18 +170,28 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   const double spacing = pen_spacing * shortening(paths);
   std::vector<PenPath> steady;
   for (const PenPath& path : paths) steady.push_back(without_jitter(path, spacing));
-  Matched best;
+  std::vector<Matched> matched;
+  std::size_t best = 0;
+  std::optional<std::size_t> as_many;  // of those of as many strokes as pen-downs the best one
   for (std::size_t i = 0; i < accepted.size(); ++i) {
-    Matched next = match_one(accepted[i], steady);
-    next.result.accepted = static_cast<int>(i);
-    if (i == 0 || next.price < best.price) best = std::move(next);
+    const Matched& next = matched.emplace_back(match_one(accepted[i], steady));
+    if (next.price < matched[best].price) best = i;
+    if (next.outlines->count() != steady.size()) continue;
+    if (!as_many || next.price < matched[*as_many].price) as_many = i;
   }
-  const Character& character = accepted[static_cast<std::size_t>(best.result.accepted)];
   std::optional<OtherCharacter> other;
-  if (others) other = other_character(others->features(), character, steady, best.reading);
-  best.result.remarks = remarks_on(character, paths, best.result.drawn, best.result.fit,
-                                   {best.reading.order_evidence, tolerances.evidence}, other);
-  return std::move(best.result);
+  // Of another character a form of fewer or more strokes may be a little less unlike than one with which it can be
+  // compared; right writing with a mistake is like its own form.
+  const bool is_like_best = matched[best].price < unlike_all * static_cast<double>(steady.size());
+  if (others && as_many && (best == *as_many || !is_like_best)) {
+    other = other_character(others->features(), accepted[*as_many], steady, matched[*as_many].reading);
+    if (other) best = *as_many;
+  }
+  MatchResult result = std::move(matched[best].result);
+  result.accepted = static_cast<int>(best);
+  result.remarks = remarks_on(accepted[best], paths, result.drawn, result.fit,
+                              {matched[best].reading.order_evidence, tolerances.evidence}, other);
+  return result;
 }
 
 MatchResult match_strokes(const Character& character, std::span<const PenPath> paths,

@@ -179,6 +179,46 @@ TEST_CASE("a character of fewer or more strokes is not told as another one", "[p
   CHECK_FALSE(told(ten, copy_of(three), index).starts_with("character"));
 }
 
+TEST_CASE("where a form of fewer strokes is accepted as well, another character is told, and a mistake is none",
+          "[practice]") {
+  const std::vector<Character>& all = built_in_characters().characters;
+  const CharacterIndex index{CharacterSet(built_in_characters())};
+  int strangers = 0, told_right = 0, fitted_fewer = 0, mistakes = 0;
+  for (const Character& asked : all) {
+    if (strokes(asked).size() < 4) continue;
+    std::vector<StrokeInput> inputs;
+    for (const Stroke& stroke : strokes(asked)) inputs.push_back(input_of(stroke));
+    inputs.pop_back();
+    const std::vector<Character> forms = {asked, make_character(asked.code, inputs)};
+    const auto other_of = [&](const std::vector<PenPath>& paths) {
+      const MatchResult match = match_strokes(forms, paths, {}, &index);
+      return match.count(StrokeRemarkKind::character) > 0 ? match.remarks[0].other_character : char32_t{};
+    };
+    for (const Character& written : all) {
+      if (written.code == asked.code || strokes(written).size() != strokes(asked).size()) continue;
+      CAPTURE(encode_utf8(asked.code), encode_utf8(written.code));
+      ++strangers;
+      fitted_fewer += match_strokes(forms, copy_of(written)).accepted;
+      const char32_t other = other_of(copy_of(written));
+      told_right += other == written.code ? 1 : 0;
+      CHECK((other == written.code || other == char32_t{}));
+    }
+    // A stroke left out, of which there are then as many as in the other form.
+    const std::vector<PenPath> right = copy_of(asked);
+    for (std::size_t stroke = 0; stroke < right.size(); ++stroke) {
+      std::vector<PenPath> paths = right;
+      paths.erase(paths.begin() + static_cast<std::ptrdiff_t>(stroke));
+      CAPTURE(encode_utf8(asked.code), stroke);
+      ++mistakes;
+      CHECK(other_of(paths) == char32_t{});
+    }
+  }
+  CHECK(strangers > 300);
+  CHECK(told_right >= 0.98 * strangers);
+  CHECK(fitted_fewer > 100);
+  CHECK(mistakes > 200);
+}
+
 TEST_CASE("twins are told by their proportions, and of lookalikes there is a note", "[practice]") {
   const Character earth = cross_on_a_line(U'土', 0.45), scholar = cross_on_a_line(U'士', 0.75);
   const CharacterIndex twins = index_of({earth, scholar});
