@@ -19,7 +19,8 @@ namespace calligraphy {
 namespace {
 
 constexpr double straight = 0.85;  // ends nearer to each other, of its length: they do not tell the way [1]
-constexpr double flat = 0.4;       // a side of a box that is shorter, of the longer: nothing is said along it [1]
+// A side of a box that is shorter, of the longer: nothing is said along it. Of strokes, and of characters [1].
+constexpr double flat_stroke = 0.4, flat_character = 0.15;
 
 struct Place {
   std::string_view english;
@@ -39,7 +40,7 @@ constexpr std::array<Place, 9> places = {{{"bottom left", "左下方"},
 constexpr std::size_t middle_of_box = 4;
 
 /// Index in `places` of the third of a box, across and up, in which a point lies.
-std::size_t place_in(const Eigen::AlignedBox2d& box, const Point& point) {
+std::size_t place_in(const Eigen::AlignedBox2d& box, double flat, const Point& point) {
   const Point sides = box.sizes(), from = point - box.min();
   std::array<std::size_t, 2> third = {1, 1};
   for (const int i : {0, 1}) {
@@ -206,7 +207,7 @@ class Words {
   Ends ends_of(int index) const {
     const std::vector<Point> path = middle_line_of(at(index));
     const Eigen::AlignedBox2d box = box_of(path);
-    const std::size_t start = place_in(box, path.front()), end = place_in(box, path.back());
+    const std::size_t start = place_in(box, flat_stroke, path.front()), end = place_in(box, flat_stroke, path.back());
     return {places[start], places[end], start != end && start != middle_of_box,
             (path.front() - path.back()).norm() >= straight * path_length(path)};
   }
@@ -232,7 +233,7 @@ class Words {
     Eigen::AlignedBox2d box;
     for (const Stroke& stroke : strokes_) box.extend(box_of(middle_line_of(stroke)));
     const std::vector<Point> path = middle_line_of(at(index));
-    return place_in(box, points_along(path, path_length(path), 3)[1]);
+    return place_in(box, flat_character, points_along(path, path_length(path), 3)[1]);
   }
 
   const StrokeRemark& remark_;

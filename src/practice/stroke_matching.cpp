@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
@@ -20,7 +22,8 @@
 namespace calligraphy {
 namespace {
 
-constexpr double unlike_all = 0.085;  // price of the best form for each pen-down, from which it is like none [em]
+constexpr double hardly_dearer = 1.25;  // than the form of least price
+constexpr double unlike_all = 0.085;    // price of the best form for each pen-down, from which it is like none [em]
 
 /// Of the pen-downs that wrote nothing and follow each other up to this one, or from it on, one that runs forwards
 /// along a stroke.
@@ -98,10 +101,11 @@ struct Matched {
   std::unique_ptr<const StrokeOutlines> outlines;  ///< to which the costs of the reading refer
   StrokeReading reading;
   MatchResult result;
-  double price = 0.0;  ///< of the reading [em]
+  double price = 0.0;        ///< of the reading [em]
+  std::size_t mistakes = 0;  ///< remarks of StrokeTolerances::normal(), whatever is told in the end
 };
 
-Matched match_one(const Character& character, std::span<const PenPath> steady) {
+Matched match_one(const Character& character, std::span<const PenPath> paths, std::span<const PenPath> steady) {
   Matched matched;
   matched.outlines = std::make_unique<const StrokeOutlines>(character);
   const StrokeOutlines& outlines = *matched.outlines;
@@ -132,6 +136,9 @@ Matched match_one(const Character& character, std::span<const PenPath> steady) {
   set_in_turn(match.drawn);
   const WritingOrder order = find_order(match.drawn);
   matched.price = reading.price(order.exchanges.size() + order.moved.size());
+  matched.mistakes = remarks_on(character, paths, match.drawn, match.fit,
+                                {reading.order_evidence, StrokeTolerances::normal().evidence})
+                         .size();
   return matched;
 }
 
@@ -173,11 +180,20 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   std::vector<Matched> matched;
   std::size_t best = 0;
   std::optional<std::size_t> as_many;  // of those of as many strokes as pen-downs the best one
+  double least_price = std::numeric_limits<double>::infinity();
+  for (const Character& character : accepted) {
+    least_price = std::min(least_price, matched.emplace_back(match_one(character, paths, steady)).price);
+  }
+  // Of forms of about the same price the one with the fewest mistakes.
+  const auto rank = [&](const Matched& form) {
+    const bool is_dear = form.price > hardly_dearer * least_price;
+    return std::tuple(is_dear, is_dear ? 0 : form.mistakes, form.price);
+  };
   for (std::size_t i = 0; i < accepted.size(); ++i) {
-    const Matched& next = matched.emplace_back(match_one(accepted[i], steady));
-    if (next.price < matched[best].price) best = i;
+    const Matched& next = matched[i];
+    if (rank(next) < rank(matched[best])) best = i;
     if (next.outlines->count() != steady.size()) continue;
-    if (!as_many || next.price < matched[*as_many].price) as_many = i;
+    if (!as_many || rank(next) < rank(matched[*as_many])) as_many = i;
   }
   std::optional<OtherCharacter> other;
   // Of another character a form of fewer or more strokes may be a little less unlike than one with which it can be

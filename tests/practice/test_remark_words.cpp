@@ -187,6 +187,10 @@ TEST_CASE("of a missing stroke it is said where it belongs", "[practice]") {
   const Character three = built_in("三");
   CHECK(said(Kind::missing, three, in_order(three, {0, 1})) ==
         Said("Stroke 3 (héng) is missing: it belongs at the bottom.", "缺少第3笔（横），它应该在下边。"));
+  const std::vector<StrokeInput> upright = {{2, {{0.4, 0.8}, {0.4, 0.3}}}, {2, {{0.6, 0.9}, {0.6, 0.1}}}};
+  const Character knife = make_character(U'刂', upright);
+  CHECK(said(Kind::missing, knife, {copy_of(knife)[1]}) ==
+        Said("Stroke 1 (shù) is missing: it belongs at the left.", "缺少第1笔（竖），它应该在左边。"));
   const StrokeInput level{1, {{0.1, 0.5}, {0.9, 0.5}}};
   const MatchResult one = match_strokes(make_character(U'一', {&level, 1}), std::vector<PenPath>());
   REQUIRE(one.remarks.size() == 1);

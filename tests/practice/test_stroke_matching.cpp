@@ -749,6 +749,28 @@ TEST_CASE("of several accepted orders the one is taken in which the strokes were
   CHECK(match_strokes(accepted, drawn).count(StrokeRemarkKind::order) == 1);
 }
 
+TEST_CASE("of accepted forms that fit about as well the one without a remark is taken", "[practice]") {
+  // Written exactly as the first form, but in the order of the second, whose middle line is lower.
+  const Character three = character_of("三");
+  const auto lower_in_other_order = [&](double by) {
+    std::vector<StrokeInput> inputs;
+    for (const Stroke& stroke : strokes(three)) inputs.push_back(input_of(stroke));
+    for (Point& point : inputs[1].control_points) point.y() -= by;
+    std::swap(inputs[0], inputs[1]);
+    return make_character(three.code, inputs);
+  };
+  std::vector<PenPath> drawn = copy_of(three);
+  std::swap(drawn[0], drawn[1]);
+  const auto taken = [&](double by) {
+    return match_strokes(std::vector<Character>{three, lower_in_other_order(by)}, drawn);
+  };
+  CHECK(match_strokes(three, drawn).count(StrokeRemarkKind::order) == 1);
+  CHECK(taken(0.033).accepted == 1);
+  CHECK(taken(0.033).remarks.empty());
+  CHECK(taken(0.06).accepted == 0);
+  CHECK(taken(0.06).count(StrokeRemarkKind::order) == 1);
+}
+
 TEST_CASE("another accepted form excuses no mistake that it has not", "[practice]") {
   // The other form of 十 begins with the shu. Its order is accepted, but not a stroke from its end.
   const Character ten = character_of("十");
