@@ -109,8 +109,9 @@ MatchResult match_strokes(const Character& character, std::span<const PenPath> p
                           const StrokeTolerances& tolerances = {}, const CharacterIndex* others = nullptr);
 
 /// The same with several stroke orders or forms of one character that are accepted, as CharacterSet::forms() has them:
-/// the one is taken that excuses least. Its price is the cost of the reading, and for each stroke or block out of order
-/// twice the mean cost of this hand, or 3 % of the em if that is more.
+/// of those that fit about as well, the one with the fewest remarks is taken. The price of one is the cost of the
+/// reading, and for each stroke or block out of order twice the mean cost of this hand, or 3 % of the em if that is
+/// more; it fits about as well up to 1.25 times the least price.
 /// @throws ValueError also when there is none, or they are of different characters
 MatchResult match_strokes(std::span<const Character> accepted, std::span<const PenPath> paths,
                           const StrokeTolerances& tolerances = {}, const CharacterIndex* others = nullptr);
