@@ -28,7 +28,7 @@ struct Place {
 };
 
 /// Of a box, from the bottom left, row by row.
-constexpr std::array<Place, 9> places = {{{"bottom left", "左下方"},
+constexpr std::array<Place, 9> thirds = {{{"bottom left", "左下方"},
                                           {"bottom", "下边"},
                                           {"bottom right", "右下方"},
                                           {"left", "左边"},
@@ -39,7 +39,7 @@ constexpr std::array<Place, 9> places = {{{"bottom left", "左下方"},
                                           {"top right", "右上方"}}};
 constexpr std::size_t middle_of_box = 4;
 
-/// Index in `places` of the third of a box, across and up, in which a point lies.
+/// Index in `thirds` of the third of a box, across and up, in which a point lies.
 std::size_t place_in(const Eigen::AlignedBox2d& box, double flat, const Point& point) {
   const Point sides = box.sizes(), from = point - box.min();
   std::array<std::size_t, 2> third = {1, 1};
@@ -133,8 +133,8 @@ class Words {
   RemarkWords missing() const {
     const std::size_t place = place_in_character(remark_.stroke);
     return {english_strokes() + " is missing: it belongs " + (place == middle_of_box ? "in" : "at") + " the " +
-                std::string(places[place].english) + ".",
-            "缺少" + chinese_strokes() + "，它应该在" + std::string(places[place].chinese) + "。"};
+                std::string(thirds[place].english) + ".",
+            "缺少" + chinese_strokes() + "，它应该在" + std::string(thirds[place].chinese) + "。"};
   }
 
   RemarkWords extra(WritingDirection direction) const {
@@ -208,7 +208,7 @@ class Words {
     const std::vector<Point> path = middle_line_of(at(index));
     const Eigen::AlignedBox2d box = box_of(path);
     const std::size_t start = place_in(box, flat_stroke, path.front()), end = place_in(box, flat_stroke, path.back());
-    return {places[start], places[end], start != end && start != middle_of_box,
+    return {thirds[start], thirds[end], start != end && start != middle_of_box,
             (path.front() - path.back()).norm() >= straight * path_length(path)};
   }
 
