@@ -1,5 +1,6 @@
 // Hands that try to get energy out of the guidance, over devices, delays and faults of timing: what they got, by the
 // work of the force at work, against the budget.
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -8,7 +9,9 @@
 #include <unistd.h>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/render/detail/energy_observer.hpp>
 
 #include "arguments.hpp"
 #include "base/parallel.hpp"
@@ -20,7 +23,8 @@ using namespace calligraphy_test;
 
 constexpr const char* usage =
     "usage: energy_account [--ticks N] [--seed S] [--threads T] [--budget J] [--gap TICKS] [--gap-share P] [--list]\n"
-    "                      [--profile NAME] [--delay D] [--hand NAME] [--timing NAME] [--alone | --servo]\n"
+    "                      [--profile NAME] [--delay D] [--hand NAME] [--timing NAME] [--alone | --servo] [--draw N]\n"
+    "--draw: only N cases of each profile at each delay, drawn by the seed\n"
     "exit code 1 if any run gives more than the budget\n";
 
 template <std::size_t size>
@@ -62,6 +66,7 @@ int main(int argc, char** argv) {
   if (gap > 0) base.shortest_gap = base.longest_gap = gap;
   base.gap_share = arguments.number("--gap-share", base.gap_share);
   const int threads = static_cast<int>(arguments.number("--threads", 0));
+  const auto draw = static_cast<std::size_t>(arguments.number("--draw", 0));
   const int delay = static_cast<int>(arguments.number("--delay", -1));
   const std::string profile = arguments.text("--profile"), hand = arguments.text("--hand"),
                     timing = arguments.text("--timing");
@@ -71,10 +76,12 @@ int main(int argc, char** argv) {
     return 2;
   }
   std::vector<EnergyRun> runs;
+  calligraphy::Random random(base.seed);
   for (const auto& device : calligraphy::device_profiles()) {
     if (!profile.empty() && profile != device.name) continue;
-    for (std::size_t t = 0; t < timing_names.size(); ++t) {
-      for (int late = 0; late <= 5; ++late) {
+    for (int late = 0; late <= calligraphy::EnergyObserver::max_delay; ++late) {
+      std::vector<EnergyRun> cases;
+      for (std::size_t t = 0; t < timing_names.size(); ++t) {
         for (std::size_t h = 0; h < energy_hand_names.size(); ++h) {
           for (const bool behind : {false, true}) {
             if (!chosen(timing, timing_names, t) || !chosen(hand, energy_hand_names, h)) continue;
@@ -86,10 +93,15 @@ int main(int argc, char** argv) {
             run.hand = static_cast<EnergyHand>(h);
             run.timing = static_cast<Timing>(t);
             run.servo = behind;
-            runs.push_back(run);
+            cases.push_back(run);
           }
         }
       }
+      if (draw > 0) {
+        calligraphy::shuffle(cases, random);
+        cases.resize(std::min(draw, cases.size()));
+      }
+      runs.insert(runs.end(), cases.begin(), cases.end());
     }
   }
   std::vector<EnergyResult> results(runs.size());
@@ -102,7 +114,7 @@ int main(int argc, char** argv) {
       [&](std::size_t i) { results[i] = run_energy(runs[i]); });
   if (watched) std::fprintf(stderr, "\r     \r");
 
-  std::map<std::string, Group> profiles, hands;
+  std::map<std::string, Group> profiles, delays, hands;
   Group all;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const EnergyRun& run = runs[i];
@@ -111,6 +123,9 @@ int main(int argc, char** argv) {
     const char* named_hand = energy_hand_names[static_cast<std::size_t>(run.hand)];
     const char* named_timing = timing_names[static_cast<std::size_t>(run.timing)];
     profiles[run.device.name + ", " + named_timing + at].add(result);
+    char late[24];
+    std::snprintf(late, sizeof late, "delay %2d", run.device.sample_delay);
+    delays[late + at].add(result);
     hands[std::string(named_hand) + at].add(result);
     all.add(result);
     if (list || result.over()) {
@@ -126,6 +141,7 @@ int main(int argc, char** argv) {
               static_cast<long long>(base.ticks), base.budget, "", "runs", "over", "given J", "excess J", "rise J",
               "claimed J", "peak N", "mean N");
   for (const auto& [name, group] : profiles) group.print(name);
+  for (const auto& [name, group] : delays) group.print(name);
   for (const auto& [name, group] : hands) group.print(name);
   all.print("all");
   std::printf(
