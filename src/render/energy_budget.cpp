@@ -10,7 +10,7 @@ namespace calligraphy {
 namespace {
 
 constexpr double max_brake = 0.1;          ///< with an exhausted budget [N]
-constexpr double min_brake_share = 0.2;    ///< of the brake with an overdrawn budget
+constexpr double least_share = 1e-9;       ///< of the reserve, from which an overdrawn budget begins to earn
 constexpr double max_brake_age = 0.01;     ///< an older velocity says less, and brakes less [s]
 constexpr double half_brake_speed = 0.01;  ///< of the pen, at which half of the brake acts [m/s]
 
@@ -29,33 +29,47 @@ EnergyBudget::EnergyBudget(const EnergyBudgetOptions& options, double period)
   require_above_zero("energy budget: period", period, "s");
   require_within("energy budget: delay", delay, "ticks", 0, EnergyObserver::max_delay);
   brake_ = max_brake / scale * std::min(1.0, max_brake_age / ((delay + 1.0) * period));
-  reserve_ = std::min(0.5 * options.budget, brake_ * hand_speed * (max_gap + period));
+  reserve_ = std::min(0.5 * options.budget, brake_ * hand_speed * (max_gap + (delay + 1.0) * period));
   restart();
 }
 
 void EnergyBudget::restart() noexcept {
   observer_.restart();
   remaining_ = options_.budget;
+  owed_ = 0.0;
   max_force_ = std::numeric_limits<double>::infinity();
 }
 
 Eigen::Vector3d EnergyBudget::next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted,
                                    const Eigen::Vector3d& viscous) noexcept {
   if (is_finite(position)) {
-    remaining_ = std::min(options_.budget, remaining_ - observer_.move(position).energy);
+    spend(observer_.move(position).energy);
   } else {
     observer_.lose_sample();
   }
   return std::isfinite(options_.budget) ? limited(wanted, viscous) : wanted;
 }
 
+/// What was spent beyond the budget is owed: the brake goes on with next to nothing, earns its reserve, and then repays.
+void EnergyBudget::spend(double energy) noexcept {
+  remaining_ -= energy;
+  const double least = least_share * reserve_;
+  if (remaining_ < least) {
+    owed_ += least - remaining_;
+    remaining_ = least;
+  }
+  const double repaid = std::clamp(remaining_ - reserve_, 0.0, owed_);
+  owed_ -= repaid;
+  remaining_ = std::min(options_.budget, remaining_ - repaid);
+}
+
 /// When the budget is nearly exhausted, a moving pen is braked lightly, so that it returns energy. Otherwise an
-/// exhausted budget would stay exhausted forever, because zero force does no work.
+/// exhausted budget would stay exhausted forever, because zero force does no work. The brake pays in advance too, from
+/// the reserve: behind late samples it may push a pen that has turned around.
 Eigen::Vector3d EnergyBudget::limited(const Eigen::Vector3d& force, const Eigen::Vector3d& viscous) noexcept {
-  max_force_ = payable_force();
+  max_force_ = payable_force(remaining_ - reserve_);
   if (max_force_ < brake_) {
-    const bool is_overdrawn = !(remaining_ > min_brake_share * reserve_);
-    max_force_ = brake_ * (is_overdrawn ? min_brake_share : std::min(remaining_ / reserve_, 1.0));
+    max_force_ = std::min(brake_, payable_force(remaining_));
     const Eigen::Vector3d& velocity = observer_.velocity();
     return -max_force_ / (norm(velocity) + half_brake_speed * options_.observer.scale) * velocity;
   }
@@ -64,12 +78,11 @@ Eigen::Vector3d EnergyBudget::limited(const Eigen::Vector3d& force, const Eigen:
   return shortened(force - viscous, max_force_ - norm(kept)) + kept;
 }
 
-/// Maximum F with F v t + (F t)^2 / (2 m) <= E, where E is what remains after the forces whose work no sample has shown
-/// yet, and after the reserve of the brake. While samples are missing, the gap foreseen for this force shrinks by what
-/// has passed of it.
-double EnergyBudget::payable_force() const noexcept {
+/// Maximum F with F v t + (F t)^2 / (2 m) <= E, where E is what is left of `energy` after the forces whose work no
+/// sample has shown yet. While samples are missing, the gap foreseen for this force shrinks by what has passed of it.
+double EnergyBudget::payable_force(double energy) const noexcept {
   const double speed = observer_.speed();
-  double available = remaining_ - reserve_ - observer_.gap().force * speed * period_;
+  double available = energy - observer_.gap().force * speed * period_;
   for (int age = 0; age < observer_.delay(); ++age) {
     available -= norm(observer_.sent_before(static_cast<std::size_t>(age))) * speed * period_;
   }

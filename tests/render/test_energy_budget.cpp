@@ -190,8 +190,6 @@ TEST_CASE("the observed energy is the true work of the held force", "[render]") 
 TEST_CASE("no field, pen up to the speed of a hand, rate or delay extracts more than the budget", "[render]") {
   for (const double rate : {100.0, 1000.0, 20'000.0}) {
     for (const int delay : {0, 1, 2, 5, EnergyObserver::max_delay}) {
-      // A brake that is later than a quarter of a swing, 8 Hz here, no longer brakes.
-      if (delay / rate > 0.02) continue;
       const Setting setting{rate, delay};
       const double seconds = rate > 5000.0 ? 0.25 * hostile_seconds : hostile_seconds;
       for (const auto& [name, field] : hostile_fields) {
@@ -200,6 +198,18 @@ TEST_CASE("no field, pen up to the speed of a hand, rate or delay extracts more 
           CHECK(max_given(setting, pen, field, seconds) <= 1.0 + 1e-9);
         }
       }
+    }
+  }
+}
+
+TEST_CASE("a hand that shakes so fast that late samples make the brake push gets no more than the budget in minutes",
+          "[render]") {
+  for (int delay = 0; delay <= EnergyObserver::max_delay; ++delay) {
+    Setting setting{1000.0, delay};
+    for (const double swing : {2.1, 2.7, 3.5}) {  // periods of the swing over the age of the brake
+      const Pen pen = to_and_fro(0.2, 0.2 * 2.0 * std::numbers::pi * setting.rate / (swing * (delay + 1)));
+      CAPTURE(delay, swing);
+      CHECK(max_given(setting, pen, hostile_fields[0].second, 150.0 * hostile_seconds) <= 1.0 + 1e-9);
     }
   }
 }
@@ -294,7 +304,8 @@ EnergyBudgetOptions budget_of(double joules, double mass, int delay = 0) {
 
 /// What remains when a budget is exhausted [N].
 constexpr double brake = 0.1;
-constexpr double faint_brake = 0.2 * brake;  // with an overdrawn budget [N]
+/// Less than anyone feels: with an overdrawn budget [N].
+constexpr double nothing = 1e-6;
 
 /// Of a budget, held for the brake: its work on a pen that turns and moves with it through the longest gap, at 1 kHz
 /// [J].
@@ -325,7 +336,7 @@ TEST_CASE("energy that the hand returns is added to the budget, up to its size",
   give(-0.09);
   CHECK(remains(0.1));
   give(0.3);
-  CHECK(budget.max_force() == Approx(faint_brake));  // overdrawn
+  CHECK(budget.max_force() < nothing);  // overdrawn
   budget.restart();
   budget.next({0, 0, 0}, {9.0, 0, 0});
   CHECK(remains(0.1));
@@ -403,21 +414,22 @@ TEST_CASE("a pen faster than a hand leaves as much force as a hand of its speed 
   }
 }
 
-TEST_CASE("an exhausted budget leaves a brake of 0.02 N, and less where samples are older than 10 ms", "[render]") {
+TEST_CASE("a nearly exhausted budget leaves a brake of 0.1 N, and less where samples are older than 10 ms", "[render]") {
   struct Case {
     double rate;
     int delay;
     double brake;
   };
-  for (const Case& each :
-       {Case{1000.0, 0, 0.02}, Case{1000.0, 5, 0.02}, Case{1000.0, 9, 0.02}, Case{1000.0, 15, 0.0125},
-        Case{500.0, 15, 0.00625}, Case{100.0, 0, 0.02}, Case{100.0, 4, 0.004}}) {
+  for (const Case& each : {Case{1000.0, 0, 0.1}, Case{1000.0, 5, 0.1}, Case{1000.0, 9, 0.1}, Case{1000.0, 15, 0.0625},
+                           Case{500.0, 15, 0.03125}, Case{100.0, 0, 0.1}, Case{100.0, 4, 0.02}}) {
     const double period = 1.0 / each.rate;
-    EnergyBudget budget(budget_of(0.0, 0.045, each.delay), period);
+    // As much as the brake may give before its work is known, and no guidance.
+    const double joules = each.brake * hand_speed * (max_gap + (each.delay + 1) * period);
+    EnergyBudget budget(budget_of(joules, infinity, each.delay), period);
     for (const double speed : {0.01, 0.99}) {
       budget.restart();
       Vector3d force(0, 0, 0);
-      for (int i = 0; i < 3; ++i) {
+      for (int i = 0; i < 3 + each.delay; ++i) {
         force = budget.next({0.6 * speed * period * i, 0, -0.8 * speed * period * i}, {5.0, 5.0, 5.0});
         budget.sent(force);
       }
@@ -439,7 +451,7 @@ TEST_CASE("as much of the budget is held in reserve as the brake may give while 
       EnergyBudget budget(options, 0.001);
       budget.next({0, 0, 0}, {100.0, 0, 0});
       const double time = std::max(gap, 0.001) + 0.001, force = budget.max_force();
-      const double reserved = least * hand_speed * (gap + 0.001);
+      const double reserved = least * hand_speed * (gap + 0.001 * (delay + 1));
       CAPTURE(gap, delay);
       CHECK(force * hand_speed * time + force * force * time * time / (2.0 * 0.045) == Approx(0.1 - reserved));
     }
@@ -542,9 +554,9 @@ TEST_CASE("a gap longer than foreseen gives at most |F| v t, and until that is r
       force = force_at(place, force, 1);
       strongest = std::max(strongest, force.norm());
     }
-    CHECK(most <= overdrawn + faint_brake * 0.04 * (1.0 - std::cos(0.05)));  // by the brake, in the tick of a turn
-    CHECK(given < overdrawn - 0.9 * faint_brake * 1.27);                     // it brakes over 1.27 m
-    CHECK(strongest <= faint_brake * (1.0 + 1e-9));
+    CHECK(most <= overdrawn * (1.0 + 1e-9));
+    CHECK(given < overdrawn - 0.4 * brake * 1.27);  // of the second, it needs half to earn its reserve
+    CHECK(strongest <= brake * (1.0 + 1e-9));
     CHECK(budget.energy_given() == Approx(given));
   }
 }
@@ -556,7 +568,7 @@ TEST_CASE("what a gap has overdrawn is repaid by the hand, then the force return
   budget.acted({2.0, 0, 0}, 100);
   budget.next({0.1, 0, 0}, {2.0, 0, 0});
   CHECK(budget.energy_given() == Approx(0.2));
-  CHECK(budget.max_force() == Approx(faint_brake));
+  CHECK(budget.max_force() < nothing);
   // A force elsewhere at work takes energy in: 2 N against a pen pushed back.
   double place = 0.1;
   for (int i = 0; i < 100; ++i) {

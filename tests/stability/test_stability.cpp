@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/render/detail/energy_observer.hpp>
 
 #include "catch.hpp"
 #include "energy.hpp"
@@ -146,7 +147,7 @@ TEST_CASE("no hand gets more energy than the budget, whatever it tries and howev
     const auto n = static_cast<std::size_t>(i);
     EnergyRun run;
     run.device = profiles[n % profiles.size()];
-    run.device.sample_delay = i % 6;
+    run.device.sample_delay = i % (calligraphy::EnergyObserver::max_delay + 1);
     run.hand = static_cast<EnergyHand>(7 * n % energy_hand_names.size());
     run.timing = static_cast<Timing>(n / 5 % static_cast<std::size_t>(Timing::idle_watchdog));
     run.servo = i % 2 == 1;
@@ -168,7 +169,7 @@ TEST_CASE("no hand gets more energy than the budget from a force that worked whi
     const auto n = static_cast<std::size_t>(i);
     EnergyRun run;
     run.device = profiles[n % profiles.size()];
-    run.device.sample_delay = i % 6;
+    run.device.sample_delay = i % (calligraphy::EnergyObserver::max_delay + 1);
     run.hand = static_cast<EnergyHand>(7 * n % energy_hand_names.size());
     run.timing = i % 2 == 0 ? Timing::idle_watchdog : Timing::starved_watchdog;
     run.servo = true;

@@ -23,14 +23,15 @@ struct EnergyBudgetOptions {
 /// F v t + (F t)^2 / (2 m) <= E, with v = hand_speed, or the pen's own speed if that is higher, and t = max_gap plus a
 /// period; for the path of a pen that the hand moves at v while the force accelerates it for that time. Forces whose
 /// work no sample has shown yet are charged likewise. Energy that the hand returns is added to E, up to the budget.
-/// Where less than 0.1 N is left by this rule, that is a brake against the motion, of 0.02 N at least (less with
-/// samples older than 10 ms), so that the pen returns energy. The true net energy never exceeds the budget, whatever
-/// the field, as long as
+/// Where less than 0.1 N is left by this rule, that is a brake against the motion (of less with samples older than 10
+/// ms), so that the pen returns energy. It pays from a reserve by the same rule, so that it fades with the reserve
+/// where late samples make it push, and grows with it where it brakes. What a violation of the conditions below
+/// overdraws is repaid before more is given. The true net energy never exceeds the budget, whatever the field, as long
+/// as
 /// - a downstream stage does not lengthen a force, and reports the one that it changes (acted());
 /// - no hand moves the pen faster than `hand_speed`, and no gap is longer than `max_gap`: a longer one of t seconds may
 ///   deliver |F| v t, which is repaid before more is given;
-/// - each sample is `delay` ticks old, or known to be lost, or more than 10 m/s away (then the pen is elsewhere);
-/// - no hand turns the pen around within that age while the budget is exhausted: the brake then pushes along.
+/// - each sample is `delay` ticks old, or known to be lost, or more than 10 m/s away (then the pen is elsewhere).
 /// Not observed is, with an encoder of resolution D, at most D / 2 times the sum of all changes of the force, and
 /// within a period in which the force changes, what a pen of acceleration a moves off a straight line: at most a T^2 /
 /// 8 times that sum.
@@ -66,7 +67,8 @@ class EnergyBudget {
 
  private:
   Eigen::Vector3d limited(const Eigen::Vector3d& force, const Eigen::Vector3d& viscous) noexcept;
-  double payable_force() const noexcept;
+  double payable_force(double energy) const noexcept;
+  void spend(double energy) noexcept;
 
   EnergyBudgetOptions options_;
   double period_ = 0.001;  ///< [s]
@@ -74,6 +76,7 @@ class EnergyBudget {
   double brake_ = 0.1;    ///< with an exhausted budget [N]
   double reserve_ = 0.0;  ///< for the brake [J]
   double remaining_ = std::numeric_limits<double>::infinity();
+  double owed_ = 0.0;  ///< overdrawn, and not repaid yet [J]
   double max_force_ = std::numeric_limits<double>::infinity();
 };
 
