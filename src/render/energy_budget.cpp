@@ -13,6 +13,7 @@ constexpr double max_brake = 0.1;          ///< with an exhausted budget [N]
 constexpr double least_share = 1e-9;       ///< of the reserve, from which an overdrawn budget begins to earn
 constexpr double max_brake_age = 0.01;     ///< an older velocity says less, and brakes less [s]
 constexpr double half_brake_speed = 0.01;  ///< of the pen, at which half of the brake acts [m/s]
+constexpr double brake_smoothing = 0.01;   ///< time over which the pen's velocity is averaged for the brake [s]
 
 constexpr double damping_share = 0.15;  ///< of a force that the budget limits
 
@@ -21,6 +22,7 @@ constexpr double damping_share = 0.15;  ///< of a force that the budget limits
 EnergyBudget::EnergyBudget(const EnergyBudgetOptions& options, double period)
     : options_(options), period_(period), observer_(options.observer, period) {
   const auto& [hand_speed, max_gap, scale, delay] = options.observer;
+  require_not_negative("energy budget: encoder_step", options.encoder_step, "m");
   require(options.budget >= 0.0, "energy budget: budget", options.budget, "J", "at least 0");
   require(options.mass > 0.0, "energy budget: mass", options.mass, "kg", "above 0");
   require_above_zero("energy budget: hand_speed", hand_speed, "m/s");
@@ -30,11 +32,14 @@ EnergyBudget::EnergyBudget(const EnergyBudgetOptions& options, double period)
   require_within("energy budget: delay", delay, "ticks", 0, EnergyObserver::max_delay);
   brake_ = max_brake / scale * std::min(1.0, max_brake_age / ((delay + 1.0) * period));
   reserve_ = std::min(0.5 * options.budget, brake_ * hand_speed * (max_gap + (delay + 1.0) * period));
+  smoothing_ = -std::expm1(-period / brake_smoothing);
   restart();
 }
 
 void EnergyBudget::restart() noexcept {
   observer_.restart();
+  velocity_.setZero();
+  brakes_ = false;
   remaining_ = options_.budget;
   owed_ = 0.0;
   max_force_ = std::numeric_limits<double>::infinity();
@@ -47,6 +52,7 @@ Eigen::Vector3d EnergyBudget::next(const Eigen::Vector3d& position, const Eigen:
   } else {
     observer_.lose_sample();
   }
+  velocity_ += smoothing_ * (observer_.velocity() - velocity_);
   return std::isfinite(options_.budget) ? limited(wanted, viscous) : wanted;
 }
 
@@ -65,17 +71,25 @@ void EnergyBudget::spend(double energy) noexcept {
 
 /// When the budget is nearly exhausted, a moving pen is braked lightly, so that it returns energy. Otherwise an
 /// exhausted budget would stay exhausted forever, because zero force does no work. The brake pays in advance too, from
-/// the reserve: behind late samples it may push a pen that has turned around.
+/// the reserve: behind late samples it may push a pen that has turned around. Its velocity is smooth, because what a
+/// force that changes with the steps of the encoder does is not seen, and so charged (sent()).
 Eigen::Vector3d EnergyBudget::limited(const Eigen::Vector3d& force, const Eigen::Vector3d& viscous) noexcept {
   max_force_ = payable_force(remaining_ - reserve_);
-  if (max_force_ < brake_) {
+  brakes_ = max_force_ < brake_;
+  if (brakes_) {
     max_force_ = std::min(brake_, payable_force(remaining_));
-    const Eigen::Vector3d& velocity = observer_.velocity();
-    return -max_force_ / (norm(velocity) + half_brake_speed * options_.observer.scale) * velocity;
+    return -max_force_ / (norm(velocity_) + half_brake_speed * options_.observer.scale) * velocity_;
   }
   if (!(dot(force, force) > max_force_ * max_force_)) return force;
   const Eigen::Vector3d kept = shortened(viscous, damping_share * max_force_);
   return shortened(force - viscous, max_force_ - norm(kept)) + kept;
+}
+
+void EnergyBudget::sent(const Eigen::Vector3d& force) noexcept {
+  if (brakes_) {
+    spend(0.5 * options_.encoder_step * (force - observer_.sent_before(0)).cwiseAbs().sum());
+  }
+  observer_.sent(force);
 }
 
 /// Maximum F with F v t + (F t)^2 / (2 m) <= E, where E is what is left of `energy` after the forces whose work no

@@ -19,6 +19,7 @@ EnergyBudget energy_budget(const RendererOptions& options, const Capabilities& c
   EnergyBudgetOptions energy;
   energy.budget = options.energy.budget;
   if (capabilities.apparent_mass > 0.0) energy.mass = capabilities.apparent_mass / (scale * scale);
+  energy.encoder_step = capabilities.encoder_step * scale;
   energy.observer.hand_speed *= scale;
   energy.observer.max_gap = options.energy.max_gap;
   energy.observer.scale = scale;

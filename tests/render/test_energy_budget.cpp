@@ -429,7 +429,7 @@ TEST_CASE("a nearly exhausted budget leaves a brake of 0.1 N, and less where sam
     for (const double speed : {0.01, 0.99}) {
       budget.restart();
       Vector3d force(0, 0, 0);
-      for (int i = 0; i < 3 + each.delay; ++i) {
+      for (int i = 0; i < 3 + each.delay + static_cast<int>(0.3 / period); ++i) {  // until its average is the speed
         force = budget.next({0.6 * speed * period * i, 0, -0.8 * speed * period * i}, {5.0, 5.0, 5.0});
         budget.sent(force);
       }
@@ -440,6 +440,24 @@ TEST_CASE("a nearly exhausted budget leaves a brake of 0.1 N, and less where sam
       CHECK(budget.max_force() == Approx(each.brake));
     }
   }
+}
+
+TEST_CASE("the brake pays for what the steps of the encoder may hide of the work of a force that changes", "[render]") {
+  // Of a true way x = q + e with |e| <= D / 2 along each axis, the sum of F (x(n + 1) - x(n)) differs from that of the
+  // encoder's q by the sum of e (F(n) - F(n - 1)), summed by parts.
+  EnergyBudgetOptions options = budget_of(reserve, infinity);
+  options.encoder_step = 55e-6;
+  EnergyBudget budget(options, 0.001);
+  Vector3d last(0, 0, 0);
+  double hidden = 0.0;
+  for (const Vector3d& force : {Vector3d(0.04, 0, 0), Vector3d(0.04, 0, 0), Vector3d(-0.01, 0.02, 0), Vector3d(0, 0, 0.05)}) {
+    budget.next({0, 0, 0}, {5.0, 0, 0});
+    CHECK(budget.max_force() == Approx((reserve - hidden) / (hand_speed * (max_gap + 0.001))));
+    budget.sent(force);
+    hidden += 0.5 * options.encoder_step * (force - last).lpNorm<1>();
+    last = force;
+  }
+  CHECK(hidden > 0.001 * reserve);
 }
 
 TEST_CASE("as much of the budget is held in reserve as the brake may give while it is held over a gap", "[render]") {
@@ -555,7 +573,7 @@ TEST_CASE("a gap longer than foreseen gives at most |F| v t, and until that is r
       strongest = std::max(strongest, force.norm());
     }
     CHECK(most <= overdrawn * (1.0 + 1e-9));
-    CHECK(given < overdrawn - 0.4 * brake * 1.27);  // of the second, it needs half to earn its reserve
+    CHECK(given < overdrawn - 0.3 * brake * 1.27);  // of the second, it needs two thirds to earn its reserve
     CHECK(strongest <= brake * (1.0 + 1e-9));
     CHECK(budget.energy_given() == Approx(given));
   }

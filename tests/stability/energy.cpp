@@ -34,7 +34,8 @@ Vector3d along_page(Random& random) {
 /// Page axes, which are those of the device but for an offset.
 class TryingHand {
  public:
-  TryingHand(EnergyHand kind, std::uint64_t seed) : kind_(kind), random_(seed) {
+  /// `delay`: age of the loop's samples [s].
+  TryingHand(EnergyHand kind, double delay, std::uint64_t seed) : kind_(kind), delay_(delay), random_(seed) {
     for (const char32_t code : written) {
       const PlacedCharacter placed = in_the_middle(built_in_characters().at(code));
       std::vector<StrokePath> paths;
@@ -65,6 +66,9 @@ class TryingHand {
       case EnergyHand::greedy:
         grip_ = {0.05, 10.0, 0.0};
         break;
+      case EnergyHand::shaking:
+        grip_ = {0.02, 50.0, 0.0};
+        break;
       default:
         break;
     }
@@ -91,6 +95,9 @@ class TryingHand {
       Vector3d wish = 0.3 * (to - position) / 0.02;
       const double size = device_force.norm();
       if (size > 0.05 && (position - to).norm() < 0.02) wish += 1.5 / size * device_force;
+      action.force = grip_.damping * (wish - velocity);
+    } else if (kind_ == EnergyHand::shaking) {
+      const Vector3d wish = 0.3 * (to - position) / 0.02 + std::sin(frequency_ * time) * shake_;
       action.force = grip_.damping * (wish - velocity);
     } else if (held) {
       action.force = grip_force(grip_, to, going_, position, velocity);
@@ -192,6 +199,12 @@ class TryingHand {
         knocked_until_ = time + random_.between(0.01, 0.05);
         next_ = knocked_until_ + random_.between(0.05, 0.5);
         break;
+      case EnergyHand::shaking:
+        // In the middle of those that are late by a quarter to three quarters of a swing; no hand is faster than 60 Hz.
+        frequency_ = 2.0 * std::numbers::pi * std::min(60.0, random_.between(0.35, 0.65) / delay_);
+        shake_ = random_.between(0.05, 0.5) * along_page(random_);
+        next_ = time + random_.between(0.5, 3.0);
+        break;
       case EnergyHand::greedy:
         press_ = random_.between(0.0, 1.0);
         next_ = time + random_.between(0.5, 2.0);
@@ -205,6 +218,7 @@ class TryingHand {
   }
 
   EnergyHand kind_;
+  double delay_;  ///< [s]
   Random random_;
   GripImpedance grip_;
   std::vector<std::vector<StrokePath>> paths_;  ///< of the characters that repeat
@@ -215,7 +229,8 @@ class TryingHand {
   int stroke_ = 0, character_ = 0;
   double next_ = 0.3;  ///< when the hand does something else [s]
   double opened_until_ = 0.0, jogged_until_ = 0.0, knocked_until_ = 0.0, strength_ = 1.0, press_ = 0.0;
-  Vector3d jog_ = Vector3d::Zero(), knock_ = Vector3d::Zero();
+  double frequency_ = 0.0;  ///< [rad/s]
+  Vector3d jog_ = Vector3d::Zero(), knock_ = Vector3d::Zero(), shake_ = Vector3d::Zero();
 };
 
 /// The clock of the run in this thread, for the work of its servo [s].
@@ -262,7 +277,7 @@ EnergyResult run_energy(const EnergyRun& run) {
   const double max_gap = renderer.options().energy.max_gap;
 
   Random random(run.seed, {static_cast<int>(run.hand), static_cast<int>(run.timing), run.device.sample_delay});
-  TryingHand hand(run.hand, random.bits());
+  TryingHand hand(run.hand, (run.device.sample_delay + 1) * period, random.bits());
   IndependentDevice device(run.device, mapping.to_device(hand.place()));
   const auto act = [&](double time, const Vector3d& position, const Vector3d& velocity) {
     return hand.act(time, mapping.to_page(position), velocity, device.force());

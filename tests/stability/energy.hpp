@@ -21,11 +21,12 @@ enum class EnergyHand {
   hold_and_release,  ///< holds the pen beside the stroke and lets go, in gaps above all
   resonance,         ///< 0.5 to 2 N, always with the velocity: drives any oscillation
   pushes,            ///< a normal grip that is hit with 10 N for 10 to 50 ms
-  greedy             ///< goes where the force pulls, at 1.5 m/s, and comes back slowly
+  greedy,            ///< goes where the force pulls, at 1.5 m/s, and comes back slowly
+  shaking            ///< shakes the pen at up to 0.5 m/s, so fast that a damper behind the loop's delay pushes
 };
 inline constexpr std::array energy_hand_names = {
     "bare",      "soft",   "normal", "firm", "light", "negative damping", "square waves", "hold and release",
-    "resonance", "pushes", "greedy"};
+    "resonance", "pushes", "greedy", "shaking"};
 
 enum class Timing {
   perfect,

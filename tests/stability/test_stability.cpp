@@ -162,6 +162,30 @@ TEST_CASE("no hand gets more energy than the budget, whatever it tries and howev
   }
 }
 
+TEST_CASE("no hand gets more energy than the budget in minutes, by a force that is late or chatters with the encoder",
+          "[stability]") {
+  struct Case {
+    const char* profile;
+    int delay;
+    EnergyHand hand;
+    bool servo;
+  };
+  for (const Case& each : {Case{"touch", 15, EnergyHand::shaking, false}, Case{"ideal", 5, EnergyHand::shaking, true},
+                           Case{"premium-1.5", 7, EnergyHand::greedy, false}}) {
+    EnergyRun run;
+    run.device = calligraphy::device_profile(each.profile);
+    run.device.sample_delay = each.delay;
+    run.hand = each.hand;
+    run.servo = each.servo;
+    run.ticks = 300000;
+    run.seed = 2;
+    const EnergyResult result = run_energy(run);
+    INFO(each.profile << ", delay " << each.delay << ": given " << result.most_given << " J");
+    CHECK_FALSE(result.over());
+    CHECK(result.most_given > 0.8 * run.budget);
+  }
+}
+
 TEST_CASE("no hand gets more energy than the budget from a force that worked while loop and watchdog were late",
           "[stability]") {
   const auto profiles = calligraphy::device_profiles();

@@ -14,6 +14,7 @@ struct EnergyBudgetOptions {
   /// Maximum net energy delivered to the hand since the start. Infinite: no limit [J].
   double budget = std::numeric_limits<double>::infinity();
   double mass = std::numeric_limits<double>::infinity();  ///< of the device, the lightest pen [kg]
+  double encoder_step = 0.0;                              ///< of a position along each axis [m]
   EnergyObserverOptions observer = {};                    ///< which accounts for the energy
 };
 
@@ -56,7 +57,7 @@ class EnergyBudget {
   Eigen::Vector3d next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted,
                        const Eigen::Vector3d& viscous = Eigen::Vector3d::Zero()) noexcept;
   /// Reports the force after all limits, held from now on. Call it once after every next().
-  void sent(const Eigen::Vector3d& force) noexcept { observer_.sent(force); }
+  void sent(const Eigen::Vector3d& force) noexcept;
   /// Resets: no force sent, no energy delivered.
   void restart() noexcept;
 
@@ -73,6 +74,9 @@ class EnergyBudget {
   EnergyBudgetOptions options_;
   double period_ = 0.001;  ///< [s]
   EnergyObserver observer_;
+  double smoothing_ = 1.0;                               ///< share of a period in the average of the velocity
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< of the pen, as the brake takes it [m/s]
+  bool brakes_ = false;
   double brake_ = 0.1;    ///< with an exhausted budget [N]
   double reserve_ = 0.0;  ///< for the brake [J]
   double remaining_ = std::numeric_limits<double>::infinity();
