@@ -59,6 +59,12 @@ Judgement judge(ErrorCode code) noexcept {
   return known != nullptr ? known->judgement : Judgement{DeviceStatus::fault, DeviceFault::runtime_error};
 }
 
+bool prevents_start(ErrorCode code) noexcept {
+  constexpr unsigned functions = 1, forces = 2, frames = 4;
+  const unsigned group = code >> 8;
+  return code == invalid_operation || (group != functions && group != forces && group != frames);
+}
+
 Judgement graver(const Judgement& a, const Judgement& b) noexcept {
   return gravity(b.status) > gravity(a.status) ? b : a;
 }

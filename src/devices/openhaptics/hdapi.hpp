@@ -42,7 +42,9 @@ inline constexpr Enum calibration_encoder_reset = 1;
 inline constexpr Enum calibration_automatic = 2;
 inline constexpr Enum calibration_inkwell = 4;
 
+// The high byte is the group: 1 functions, 2 forces, 3 device, 4 frames, 5 scheduler, 6 licence.
 inline constexpr ErrorCode no_error = 0;
+inline constexpr ErrorCode invalid_operation = 0x0102;
 inline constexpr ErrorCode warm_motors = 0x0200;
 inline constexpr ErrorCode exceeded_max_force = 0x0201;
 inline constexpr ErrorCode exceeded_impulse = 0x0202;

@@ -10,6 +10,8 @@
 
 #include <calligraphy/base/error.hpp>
 
+#include "errors.hpp"
+
 namespace calligraphy::hdapi {
 namespace {
 
@@ -105,7 +107,7 @@ void Runtime::use_scheduler() {
   const std::lock_guard lock(scheduler_mutex);
   if (users_ == 0) {
     functions_.hdStartScheduler();
-    const std::string errors = take_errors();
+    const std::string errors = take_errors(prevents_start);
     if (!errors.empty()) {
       functions_.hdStopScheduler();
       take_errors();
@@ -125,11 +127,12 @@ bool Runtime::scheduler_runs() const {
   return users_ > 0;
 }
 
-std::string Runtime::take_errors() const {
+std::string Runtime::take_errors(bool (*counts)(ErrorCode) noexcept) const {
   std::string result;
   for (int i = 0; i < max_errors; ++i) {
     const ErrorInfo error = functions_.hdGetError();
     if (error.code == no_error) break;
+    if (!counts(error.code)) continue;
     char code[32];
     std::snprintf(code, sizeof code, "HD error 0x%04x", error.code);
     const char* text = functions_.hdGetErrorString(error.code);

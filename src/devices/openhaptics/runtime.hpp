@@ -28,8 +28,8 @@ class Runtime {
   void leave_scheduler() noexcept;
   bool scheduler_runs() const;
 
-  /// Fetches all pending errors, such as "HD error 0x0301: text"; empty if there are none.
-  std::string take_errors() const;
+  /// Fetches all pending errors, and describes those that count: "HD error 0x0301: text"; empty if there are none.
+  std::string take_errors(bool (*counts)(ErrorCode) noexcept = [](ErrorCode) noexcept { return true; }) const;
 
  private:
   void* file_;

@@ -26,6 +26,8 @@ struct StandInControl {
   void (*report)(unsigned code);
   /// The next call of this function, by its name, leaves the error behind ("hdStartScheduler").
   void (*fail)(const char* function, unsigned code);
+  /// The next call of this function succeeds, and leaves the error behind nevertheless.
+  void (*leave)(const char* function, unsigned code);
   void (*set_calibration)(int device, unsigned state);
   void (*put_into_inkwell)(int device, bool);
   void (*set_buttons)(int device, int);

@@ -534,14 +534,29 @@ TEST_CASE("two devices share the scheduler, which stops with the last loop", "[o
 TEST_CASE("a scheduler that does not start is an error, and a later start may succeed", "[openhaptics]") {
   Lab lab;
   OpenHapticsDevice device(lab.options());
-  lab.runtime->fail("hdStartScheduler", 0x0304);
+  const auto [code, text] =
+      GENERATE(table<unsigned, std::string>({{0x0102, "0x0102"}, {0x0300, "0x0300"}, {0x0302, "0x0302"},
+                                             {0x0304, "0x0304"}, {0x0501, "0x0501"}, {0x0600, "0x0600"},
+                                             {0x7777, "0x7777"}}));
+  lab.runtime->leave("hdStartScheduler", 0x0103);  // not the reason
+  lab.runtime->fail("hdStartScheduler", code);
   const std::string message = message_of([&] { device.clock()->start([](double) {}); });
-  CHECK(contains(message, "does not start: HD error 0x0304"));
+  CHECK(contains(message, "does not start: HD error " + text + ": an error"));
   CHECK_FALSE(device.clock()->running());
   CHECK(lab.runtime->callbacks() == 0);
   Driven loop(device);
   lab.steps(300);
   CHECK(lab.force().x() == Approx(1.0));
+}
+
+TEST_CASE("a scheduler that starts may leave a warning or another call's error behind", "[openhaptics]") {
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  lab.runtime->leave("hdStartScheduler", GENERATE(0x0100, 0x0103, 0x0200, 0x0402));
+  Driven loop(device);
+  lab.steps(300);
+  CHECK(lab.force().x() == Approx(1.0));
+  CHECK(loop.servo.statistics().faults == ServoStatistics().faults);
 }
 
 TEST_CASE("a tick through the runtime does not allocate", "[openhaptics]") {

@@ -85,7 +85,7 @@ struct World {
   std::vector<std::unique_ptr<Device>> devices;
   std::deque<ErrorInfo> errors;
   std::list<Scheduled> callbacks;
-  std::map<std::string, unsigned> failures;
+  std::map<std::string, unsigned> failures, leftovers;
   unsigned long next_handle = 1;
   double time = 0.0;
   std::atomic<bool> running = false;
@@ -110,12 +110,18 @@ void break_rule() {
   report(invalid_call);
 }
 
-bool fails(const char* function) {
-  const auto found = world().failures.find(function);
-  if (found == world().failures.end()) return false;
+/// Reports the error once that was asked for.
+bool reports(std::map<std::string, unsigned>& asked, const char* function) {
+  const auto found = asked.find(function);
+  if (found == asked.end()) return false;
   report(found->second);
-  world().failures.erase(found);
+  asked.erase(found);
   return true;
+}
+
+bool fails(const char* function) {
+  reports(world().leftovers, function);
+  return reports(world().failures, function);
 }
 
 Device* open_device(unsigned handle) {
@@ -178,6 +184,7 @@ void reset() {
   world().errors.clear();
   world().callbacks.clear();
   world().failures.clear();
+  world().leftovers.clear();
   world().time = 0.0;
   world().real_time = false;
   world().broken_rules = 0;
@@ -409,6 +416,10 @@ void stand_in_control(calligraphy_test::StandInControl* control) {
   control->fail = [](const char* function, unsigned code) {
     const Lock lock(world().mutex);
     world().failures[function] = code;
+  };
+  control->leave = [](const char* function, unsigned code) {
+    const Lock lock(world().mutex);
+    world().leftovers[function] = code;
   };
   control->set_calibration = [](int device, unsigned state) {
     const Lock lock(world().mutex);
