@@ -98,19 +98,24 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
       spdlog::warn("force ramped down to zero: {}", to_string(view.servo.fault));
     }
     told = view.servo.fault;
+    if (view.servo.device == DeviceStatus::warm_motors) {
+      warn("warm motors: the force is lowered until they have cooled, to none if need be. Let the device rest");
+    }
     hints.look(view);
     stop_key_->look();
     return !interrupted();
   };
   LiveResult result = write_with_device(page, *device_, options);
-  for (const std::string& warning : result.warnings) {
-    if (std::find(warnings_.begin(), warnings_.end(), warning) != warnings_.end()) continue;
-    spdlog::warn("{}", warning);
-    warnings_.push_back(warning);
-  }
+  for (const std::string& warning : result.warnings) warn(warning);
   if (result.dropped > 0) spdlog::warn("{} ticks are missing from the recording", result.dropped);
   statistics_.push_back(result.statistics);
   return std::move(result.recording);
+}
+
+void Pen::warn(const std::string& warning) {
+  if (std::find(warnings_.begin(), warnings_.end(), warning) != warnings_.end()) return;
+  spdlog::warn("{}", warning);
+  warnings_.push_back(warning);
 }
 
 }  // namespace calligraphy::tools

@@ -48,17 +48,20 @@ class Pen {
   bool stopped_by_key() const noexcept { return interrupted() && !interrupt_->asked(); }
   /// Servo loop statistics per page; empty unless a person writes.
   const std::vector<ServoStatistics>& statistics() const noexcept { return statistics_; }
+  /// What a person was warned of, each once.
+  const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
  private:
   Recording replay(const PracticePage& page, const SessionOptions& session) const;
   Recording live(const PracticePage& page, const SessionOptions& session);
+  void warn(const std::string& warning);
 
   PenOptions options_;
   Capabilities capabilities_;
   std::unique_ptr<HapticDevice> device_;  ///< null unless a person writes
   std::optional<Interrupt> interrupt_;    ///< from opening the device until the results are written
   std::optional<StopKey> stop_key_;       ///< while a person writes
-  std::vector<std::string> warnings_;     ///< already reported
+  std::vector<std::string> warnings_;
   std::vector<ServoStatistics> statistics_;
 };
 

@@ -253,8 +253,10 @@ std::string json(const Summary& summary) {
                     {"fidelity", score.fidelity},
                     {"remarks", remarks}});
   }
-  const Json all = {
-      {"repetitions_requested", summary.repetitions}, {"interrupted", summary.interrupted}, {"results", list}};
+  const Json all = {{"repetitions_requested", summary.repetitions},
+                    {"interrupted", summary.interrupted},
+                    {"warnings", summary.warnings},
+                    {"results", list}};
   return all.dump(2) + "\n";
 }
 

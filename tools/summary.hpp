@@ -24,9 +24,10 @@ struct Result {
 
 /// What a run has written.
 struct Summary {
-  std::vector<Result> results;  ///< ordered by position, then mode, then repetition
-  int repetitions = 1;          ///< asked for
-  bool interrupted = false;     ///< there are fewer
+  std::vector<Result> results;        ///< ordered by position, then mode, then repetition
+  int repetitions = 1;                ///< asked for
+  bool interrupted = false;           ///< there are fewer
+  std::vector<std::string> warnings;  ///< of the device that a person held
 };
 
 /// The smallest value that at least a fraction `share` of the values do not exceed; 0 if empty. Reorders `values`.
@@ -35,8 +36,8 @@ double percentile(std::vector<float>& values, double share);
 /// One line per character and mode, with means over as many repetitions as there are, which the first line says.
 std::string table(const Summary& summary);
 
-/// An object: how many repetitions were asked for, whether the run was interrupted, and a list with one object per
-/// result.
+/// An object: how many repetitions were asked for, whether the run was interrupted, the warnings, and a list with one
+/// object per result.
 std::string json(const Summary& summary);
 
 /// Reduction of error and time with force: mean and 95 % interval over the pairs of character and repetition that are

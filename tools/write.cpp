@@ -203,6 +203,7 @@ class WriteRun {
     };
     std::sort(summary_.results.begin(), summary_.results.end(), order);
     summary_.interrupted = pen_.interrupted();
+    summary_.warnings = pen_.warnings();
     out.write("summary.json", json(summary_));
     if (pen_.is_person()) out.write("servo.json", json(pen_.statistics()));
     report();

@@ -183,3 +183,13 @@ class Devices(ProgramTest):
         if "force ramped down to zero" not in done.stderr:
             self.assertEqual(row["strokes_completed"], 2, done.stderr)
         self.assertGreater(row["peak_force_N"], 0.0)
+
+    def test_warm_motors_are_told_once_and_are_in_the_summary(self):
+        library = os.environ.get("CALLIGRAPHY_HELD_LIBHD")
+        if not library:
+            self.skipTest("built without the backend for openhaptics")
+        hot = {"CALLIGRAPHY_LIBHD": library, "STAND_IN_TEXT": "十", "STAND_IN_TEMPERATURE": "0.9"}
+        done = self.run_program("write", "十", "--device", "openhaptics", "--out", "out", "--timeout", "30", "--json",
+                                environment=hot)
+        self.assertEqual(done.stderr.count("warm motors: the force is lowered"), 1, done.stderr)
+        self.assertEqual(sum("warm motors" in told for told in json.loads(done.stdout)["warnings"]), 1)

@@ -27,6 +27,8 @@ constexpr KnownError known_errors[] = {
     {frame_error, "frame error", {DeviceStatus::fault, DeviceFault::runtime_error}},
 };
 
+unsigned group_of(ErrorCode code) noexcept { return code >> 8; }
+
 const KnownError* find(ErrorCode code) noexcept {
   for (const KnownError& known : known_errors) {
     if (known.code == code) return &known;
@@ -59,10 +61,11 @@ Judgement judge(ErrorCode code) noexcept {
   return known != nullptr ? known->judgement : Judgement{DeviceStatus::fault, DeviceFault::runtime_error};
 }
 
+bool concerns_call(ErrorCode code) noexcept { return group_of(code) == 1 && code != invalid_operation; }
+
 bool prevents_start(ErrorCode code) noexcept {
-  constexpr unsigned functions = 1, forces = 2, frames = 4;
-  const unsigned group = code >> 8;
-  return code == invalid_operation || (group != functions && group != forces && group != frames);
+  constexpr unsigned forces = 2, frames = 4;
+  return !concerns_call(code) && group_of(code) != forces && group_of(code) != frames;
 }
 
 Judgement graver(const Judgement& a, const Judgement& b) noexcept {

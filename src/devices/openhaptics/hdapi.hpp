@@ -32,6 +32,7 @@ inline constexpr Enum usable_workspace = 0x2551;
 inline constexpr Enum update_rate = 0x2600;
 inline constexpr Enum max_force = 0x2603;         // [N]
 inline constexpr Enum continuous_force = 0x2604;  // [N]
+inline constexpr Enum motor_temperature = 0x2605;  // per motor, 0 cold to 1 too hot
 inline constexpr Enum current_force = 0x2700;     // [N]
 inline constexpr Enum force_output = 0x4000;
 

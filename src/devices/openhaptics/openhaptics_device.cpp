@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
@@ -10,6 +11,7 @@
 
 #include "base/monotonic_clock.hpp"
 #include "errors.hpp"
+#include "heat_limit.hpp"
 #include "scheduler_clock.hpp"
 
 namespace calligraphy {
@@ -18,10 +20,11 @@ namespace {
 using namespace hdapi;
 
 constexpr double millimetre = 1e-3;  // [m]
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int max_errors = 16;       // fetched per tick
 
-/// Interval of calibration checks: short for a person, long enough to cost nothing [ticks].
-constexpr int calibration_interval = 50;
+/// Interval of looks at calibration and temperature: short for a person, long enough to cost nothing [ticks].
+constexpr int look_interval = 50;
 
 std::string text(const char* string) { return string != nullptr ? string : ""; }
 
@@ -83,6 +86,7 @@ class OpenHapticsDevice::Implementation {
   Handle open_device(const OpenHapticsOptions& options);
   Capabilities ask_capabilities();
   void look_at_calibration() noexcept;
+  void look_at_temperature() noexcept;
   Judgement take_errors() noexcept;
 
   double (*time_)() noexcept;
@@ -91,7 +95,11 @@ class OpenHapticsDevice::Implementation {
   std::atomic<bool> open_ = false;
   double opened_ = 0.0;  ///< [s]
   DeviceState state_;
-  int until_calibration_ = 0;                       ///< [ticks]
+  Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();  ///< as the runtime got it [N]
+  HeatLimit heat_;
+  bool asks_temperature_ = true;  ///< until the runtime refuses to tell it
+  double temperature_ = unknown;  ///< of the warmest motor, as of the last look; 1: the vendor's limit
+  int until_look_ = 0;            ///< [ticks]
   std::atomic<Enum> calibration_ = calibration_ok;  ///< as of the last check
 };
 
@@ -173,14 +181,23 @@ DeviceState OpenHapticsDevice::Implementation::read() noexcept {
   hd().hdGetDoublev(current_position, position);
   hd().hdGetDoublev(current_velocity, velocity);
   hd().hdGetIntegerv(current_buttons, &buttons);
-  look_at_calibration();
+  const bool looks = --until_look_ <= 0;
+  if (looks) look_at_calibration();
   Judgement judgement = take_errors();
+  if (looks) {
+    until_look_ = look_interval;
+    look_at_temperature();
+  }
+  const double time = time_() - opened_;
+  heat_.update(judgement.status == DeviceStatus::warm_motors, temperature_, time - state_.time);
+  if (heat_.is_warm()) judgement = graver(judgement, {DeviceStatus::warm_motors, DeviceFault::none});
   if (calibration_.load(std::memory_order_relaxed) != calibration_ok) {
     judgement = graver(judgement, {DeviceStatus::needs_calibration, DeviceFault::uncalibrated});
   }
-  state_.time = time_() - opened_;
+  state_.time = time;
   state_.position = millimetre * Eigen::Vector3d(position[0], position[1], position[2]);
   state_.velocity = millimetre * Eigen::Vector3d(velocity[0], velocity[1], velocity[2]);
+  state_.force = clock->output_on() ? sent_ : Eigen::Vector3d(Eigen::Vector3d::Zero());
   state_.buttons = static_cast<std::uint32_t>(buttons) & 0xF;
   state_.status = judgement.status;
   state_.fault = judgement.fault;
@@ -188,14 +205,30 @@ DeviceState OpenHapticsDevice::Implementation::read() noexcept {
 }
 
 void OpenHapticsDevice::Implementation::look_at_calibration() noexcept {
-  if (--until_calibration_ > 0) return;
-  until_calibration_ = calibration_interval;
   Enum calibration = hd().hdCheckCalibration();
   if (calibration == calibration_needs_update) {
     hd().hdUpdateCalibration(calibration_style_);
     calibration = hd().hdCheckCalibration();
   }
   calibration_.store(calibration, std::memory_order_relaxed);
+}
+
+/// Call when all errors have been taken: what is pending afterwards is about the question alone.
+void OpenHapticsDevice::Implementation::look_at_temperature() noexcept {
+  if (!asks_temperature_) return;
+  constexpr double most_plausible = 2.0;  // on this scale; above, it is another one
+  double motors[16];
+  std::fill(std::begin(motors), std::end(motors), unknown);
+  hd().hdGetDoublev(motor_temperature, motors);
+  temperature_ = unknown;
+  for (const double motor : motors) temperature_ = std::fmax(temperature_, motor);
+  if (!within(temperature_, 0.0, most_plausible)) temperature_ = unknown;
+  for (int i = 0; i < max_errors; ++i) {
+    const ErrorCode code = hd().hdGetError().code;
+    if (code == no_error) break;
+    temperature_ = unknown;
+    if (concerns_call(code)) asks_temperature_ = false;
+  }
 }
 
 Judgement OpenHapticsDevice::Implementation::take_errors() noexcept {
@@ -215,9 +248,9 @@ void OpenHapticsDevice::Implementation::write(const Eigen::Vector3d& force) noex
     if (force.isZero(0.0)) clock->cut_force();
     return;
   }
-  const Eigen::Vector3d sent =
-      force.allFinite() ? shortened(force, capabilities.peak_force) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-  clock->set_force({sent.x(), sent.y(), sent.z()});
+  const double limit = heat_.share() * capabilities.peak_force;
+  sent_ = force.allFinite() ? shortened(force, limit) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  clock->set_force({sent_.x(), sent_.y(), sent_.z()});
 }
 
 void OpenHapticsDevice::Implementation::close() noexcept {

@@ -23,6 +23,7 @@ class SchedulerClock final : public ServoClock {
   /// Whether the caller is within a tick of this clock, the only place where a frame is open.
   bool within_tick() const noexcept;
 
+  bool output_on() const noexcept { return output_on_; }
   /// Switches the force output off from outside a tick; the next frame that sets a force switches it on again.
   void cut_force() noexcept;
   /// Call within a tick only.

@@ -29,6 +29,7 @@ struct StandInControl {
   /// The next call of this function succeeds, and leaves the error behind nevertheless.
   void (*leave)(const char* function, unsigned code);
   void (*set_calibration)(int device, unsigned state);
+  void (*set_motor_temperature)(int device, double);  ///< of its second motor; NaN: the device does not tell it
   void (*put_into_inkwell)(int device, bool);
   void (*set_buttons)(int device, int);
   void (*set_intention)(int device, const double position[3], const double velocity[3]);  ///< [m], [m/s]

@@ -221,17 +221,56 @@ TEST_CASE("each error of the runtime is reported as status and fault, and the fo
   CHECK(lab.runtime->broken_rules() == 0);
 }
 
-TEST_CASE("warm motors are reported, and the force continues", "[openhaptics]") {
+TEST_CASE("warm motors are reported while the force is lowered, to none if need be, and the law is told the lower one",
+          "[openhaptics]") {
   Lab lab;
+  const bool tells_temperature = GENERATE(false, true);
+  lab.runtime->set_motor_temperature(0, tells_temperature ? 0.4 : std::numeric_limits<double>::quiet_NaN());
   OpenHapticsDevice device(lab.options());
-  Driven loop(device);
+  const double peak = device.capabilities().peak_force;
+  DeviceState last;
+  Driven loop(device, [&](const DeviceState& state) {
+    last = state;
+    return Eigen::Vector3d(0.6 * peak, 0.0, 0.8 * peak);
+  });
   lab.steps(300);
-  lab.runtime->inject(0, 0x0200, 5);
-  lab.steps(5);
-  CHECK(loop.servo.status().device == DeviceStatus::warm_motors);
-  CHECK(lab.force().x() == Approx(1.0));
-  lab.steps(1);
-  CHECK(loop.servo.status().device == DeviceStatus::ok);
+  REQUIRE(lab.force().norm() == Approx(peak));
+  const auto run = [&](int ticks, double max_step) {
+    for (int i = 0; i < ticks; ++i) {
+      const Eigen::Vector3d before = lab.force();
+      lab.steps(1);
+      REQUIRE(last.force.isApprox(before));
+      REQUIRE(std::abs(lab.force().norm() - before.norm()) <= max_step * peak);
+      REQUIRE(lab.force().z() * 0.6 == Approx(lab.force().x() * 0.8));
+    }
+  };
+  if (tells_temperature) {
+    lab.runtime->set_motor_temperature(0, 0.85);
+    run(30'000, 2e-4);
+    CHECK(lab.force().norm() == Approx(0.5 * peak));  // halfway from 0.7 to 1
+    CHECK(last.status == DeviceStatus::warm_motors);
+    lab.runtime->set_motor_temperature(0, 1.0);
+    run(200, 2e-2);
+  } else {
+    lab.runtime->inject(0, 0x0200, 20'000);
+    run(1000, 2e-4);
+    CHECK(lab.force().norm() < 0.95 * peak);
+    CHECK(last.status == DeviceStatus::warm_motors);
+    run(18'900, 2e-4);
+  }
+  CHECK(lab.force().isZero(0.0));
+  CHECK(last.status == DeviceStatus::warm_motors);
+  lab.runtime->set_motor_temperature(0, 0.6);
+  run(15'000, 2e-4);
+  CHECK(lab.force().norm() < 0.6 * peak);
+  run(16'000, 2e-4);
+  CHECK(lab.force().norm() == Approx(peak));
+  CHECK((last.status == DeviceStatus::warm_motors) == tells_temperature);  // it would come and go
+  lab.runtime->set_motor_temperature(0, 0.4);
+  run(100, 0.0);
+  CHECK(last.status == DeviceStatus::ok);
+  CHECK(loop.servo.statistics().faults == ServoStatistics().faults);
+  CHECK(lab.runtime->broken_rules() == 0);
 }
 
 TEST_CASE("of several errors in one tick the most severe counts, whatever their order", "[openhaptics]") {

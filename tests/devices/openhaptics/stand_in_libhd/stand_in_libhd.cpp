@@ -1,10 +1,11 @@
 // A stub of the vendor's runtime, written from the same public facts as the backend: a library with the functions
 // of HDAPI and simulated devices inside. Three variants: complete; without some functions (WITHOUT_...); and with
 // STAND_IN_IS_HELD, for programs that know nothing of it: a device held by a hand that writes STAND_IN_TEXT, in real
-// time.
+// time, its second motor at STAND_IN_TEMPERATURE.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <deque>
 #include <functional>
@@ -40,6 +41,7 @@ struct ErrorInfo {
 using Callback = unsigned (*)(void*);
 
 constexpr unsigned no_device = 0xFFFFFFFF;
+constexpr unsigned invalid_enum = 0x0100;
 constexpr unsigned invalid_call = 0x0102;
 constexpr unsigned frame_error = 0x0402;
 constexpr unsigned not_found = 0x0301;
@@ -68,6 +70,7 @@ struct Device {
   bool in_inkwell = false;
   int buttons = 0;
   unsigned calibration = calibration_ok;
+  double motor_temperature = 0.0;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();        ///< last one set
   DeviceState frame;                                      ///< the sample of the open frame
   std::function<Intention(const Eigen::Vector3d&)> hand;  ///< where it pulls to from this tip [m]; may be empty
@@ -207,6 +210,8 @@ void give(const Eigen::Vector3d& values, double result[3]) { std::copy(values.be
   const auto writer = std::make_shared<calligraphy_test::WritingHand>(page, profile, skill, 1);
   auto device = std::make_unique<Device>("Default Device", "PHANTOM Touch", "touch", skill.grip, writer->start());
   device->hand = [writer](const Eigen::Vector3d& tip) { return writer->next(tip, period); };
+  const char* const temperature = std::getenv("STAND_IN_TEMPERATURE");
+  if (temperature != nullptr) device->motor_temperature = std::atof(temperature);
   world().devices.push_back(std::move(device));
   world().real_time = true;
   return true;
@@ -305,7 +310,10 @@ void hdGetDoublev(unsigned what, double* values) {
   Device* device = open_device(current);
   if (device == nullptr) return break_rule();
   const Capabilities& capabilities = device->physics.capabilities();
-  if (what == 0x2551) {
+  if (what == 0x2605) {
+    if (std::isnan(device->motor_temperature)) return report(invalid_enum);
+    give({0.0, device->motor_temperature, 0.0}, values);
+  } else if (what == 0x2551) {
     // Not centred: 10 mm more to the right, upwards and towards the user.
     const Eigen::Vector3d half = 0.5e3 * capabilities.workspace;
     give(-half, values);
@@ -424,6 +432,10 @@ void stand_in_control(calligraphy_test::StandInControl* control) {
   control->set_calibration = [](int device, unsigned state) {
     const Lock lock(world().mutex);
     numbered(device).calibration = state;
+  };
+  control->set_motor_temperature = [](int device, double temperature) {
+    const Lock lock(world().mutex);
+    numbered(device).motor_temperature = temperature;
   };
   control->put_into_inkwell = [](int device, bool inside) {
     const Lock lock(world().mutex);
