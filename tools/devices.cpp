@@ -28,6 +28,7 @@
 #include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 #endif
 
+#include "advice_teller.hpp"
 #include "base/monotonic_clock.hpp"
 #include "commands.hpp"
 #include "device_choice.hpp"
@@ -199,6 +200,7 @@ class SeenDevice final : public HapticDevice {
   void close() noexcept override { device_.close(); }
   ServoClock* clock() noexcept override { return device_.clock(); }
   std::vector<std::string> warnings() const override { return device_.warnings(); }
+  std::string advice() const override { return device_.advice(); }
 
   /// Called by the watching thread.
   void look(Sighting& newest) {
@@ -243,11 +245,13 @@ void watch(const WatchOptions& options) {
   for (const std::string& warning : loop.start()) spdlog::warn("{}", warning);
   const double begin = monotonic_seconds();
   Sighting newest;
+  AdviceTeller advice;
   while (!interrupt.asked() && !key.pressed() &&
          (options.seconds == 0.0 || monotonic_seconds() - begin < options.seconds)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(250));
     seen.look(newest);
     key.look();
+    advice.look(seen.advice());
     const ServoStatus status = loop.status();
     const Eigen::Vector3d p = 1e3 * newest.state.position;
     fmt::print("x {:8.2f}  y {:8.2f}  z {:8.2f} mm{}  buttons {:04b}  {}{}{}  {} stale of {} ticks\n", p.x(), p.y(),

@@ -9,6 +9,7 @@
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/recording.hpp>
 
+#include "advice_teller.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
 
@@ -86,6 +87,7 @@ Recording Pen::replay(const PracticePage& page, const SessionOptions& session) c
 Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
   DeviceFault told = DeviceFault::none;
   HintTeller hints;
+  AdviceTeller advice;
   LiveOptions options;
   options.mode = session.mode;
   options.renderer = session.renderer;
@@ -98,24 +100,24 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
       spdlog::warn("force ramped down to zero: {}", to_string(view.servo.fault));
     }
     told = view.servo.fault;
-    if (view.servo.device == DeviceStatus::warm_motors) {
-      warn("warm motors: the force is lowered until they have cooled, to none if need be. Let the device rest");
-    }
+    if (advice.look(view.advice)) is_new(view.advice);
     hints.look(view);
     stop_key_->look();
     return !interrupted();
   };
   LiveResult result = write_with_device(page, *device_, options);
-  for (const std::string& warning : result.warnings) warn(warning);
+  for (const std::string& warning : result.warnings) {
+    if (is_new(warning)) spdlog::warn("{}", warning);
+  }
   if (result.dropped > 0) spdlog::warn("{} ticks are missing from the recording", result.dropped);
   statistics_.push_back(result.statistics);
   return std::move(result.recording);
 }
 
-void Pen::warn(const std::string& warning) {
-  if (std::find(warnings_.begin(), warnings_.end(), warning) != warnings_.end()) return;
-  spdlog::warn("{}", warning);
+bool Pen::is_new(const std::string& warning) {
+  if (std::find(warnings_.begin(), warnings_.end(), warning) != warnings_.end()) return false;
   warnings_.push_back(warning);
+  return true;
 }
 
 }  // namespace calligraphy::tools

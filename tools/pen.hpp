@@ -54,7 +54,7 @@ class Pen {
  private:
   Recording replay(const PracticePage& page, const SessionOptions& session) const;
   Recording live(const PracticePage& page, const SessionOptions& session);
-  void warn(const std::string& warning);
+  bool is_new(const std::string& warning);
 
   PenOptions options_;
   Capabilities capabilities_;

@@ -102,6 +102,7 @@ calligraphy_status calligraphy_servo_read_state(const calligraphy_servo* servo, 
     result.ticks = statistics.ticks;
     result.missed = statistics.missed_deadlines;
     if (status.fault != DeviceFault::none) std::strncpy(result.fault, to_string(status.fault), sizeof result.fault - 1);
+    std::strncpy(result.advice, advice_text(status.device), sizeof result.advice - 1);
     write_struct(state, "calligraphy_servo_state", result);
   });
 }

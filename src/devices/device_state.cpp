@@ -20,6 +20,17 @@ const char* to_string(DeviceStatus status) noexcept {
   return "unknown";
 }
 
+const char* advice_text(DeviceStatus status) noexcept {
+  switch (status) {
+    case DeviceStatus::needs_calibration:
+      return "needs calibration: put the pen into the inkwell, or calibrate it as the device's manual says";
+    case DeviceStatus::warm_motors:
+      return "warm motors: the force is lowered until they have cooled, to none if need be; let the device rest";
+    default:
+      return "";
+  }
+}
+
 const char* to_string(DeviceFault fault) noexcept {
   switch (fault) {
     case DeviceFault::none:

@@ -83,6 +83,7 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
     std::this_thread::sleep_for(glance);
     take_over();
     view.servo = loop.status();
+    view.advice = device.advice();
     view.started = in_front.load(std::memory_order_relaxed);
     view.progress = share_written(page, view.newest.character, view.newest.stroke);
     if (options.watch && !options.watch(view)) break;

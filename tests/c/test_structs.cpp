@@ -444,7 +444,7 @@ TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its 
   CHECK(sizeof(calligraphy_pointer_options) == 56);
   CHECK(sizeof(calligraphy_renderer_options) == 360);
   CHECK(sizeof(calligraphy_tick) == 360);
-  CHECK(sizeof(calligraphy_servo_state) == 64);
+  CHECK(sizeof(calligraphy_servo_state) == 192);
   CHECK(sizeof(calligraphy_drawn_stroke) == 48);
   CHECK(sizeof(calligraphy_remark) == 56);
   CHECK(sizeof(calligraphy_character_score) == 208);

@@ -414,6 +414,7 @@ TEST_CASE("a servo drives a device of the program's own") {
     state.status = CALLIGRAPHY_DEVICE_WARM_MOTORS;
     step(true);
     CHECK(tick.force[2] > 0.5);
+    CHECK(servo_state.advice == std::string(advice_text(DeviceStatus::warm_motors)));
     for (int i = 0; i < 20; ++i) step(false);
     CHECK(tick.force[2] == 0.0);
     CHECK(servo_state.fault == std::string("silent"));
@@ -457,6 +458,13 @@ TEST_CASE("a servo drives a device of the program's own") {
     CHECK(tick.force[2] == 0.0);
     CHECK(events == 0);
     CHECK(servo_state.device_status == CALLIGRAPHY_DEVICE_FAULT);
+  }
+  SECTION("and says what to do while the device needs calibration") {
+    CHECK(servo_state.advice == std::string());
+    state.status = CALLIGRAPHY_DEVICE_NEEDS_CALIBRATION;
+    for (int i = 0; i < 20; ++i) step(true);
+    CHECK(tick.force[2] == 0.0);
+    CHECK(servo_state.advice == std::string(advice_text(DeviceStatus::needs_calibration)));
   }
 }
 

@@ -64,6 +64,7 @@ class HeldDevice final : public HapticDevice, public ServoClock {
   void close() noexcept override { device_.close(); }
   ServoClock* clock() noexcept override { return this; }
   std::vector<std::string> warnings() const override { return {"no priority"}; }
+  std::string advice() const override { return ticks_ < 300 ? "put the pen into the inkwell" : ""; }
 
   void start(std::function<void(double)> tick) override {
     stopping_ = false;
@@ -323,6 +324,15 @@ TEST_CASE("a session reports what the system did not permit, and measures its ti
   CHECK(result.warnings == device.warnings());
   CHECK(std::any_of(result.recording.samples.begin(), result.recording.samples.end(),
                     [](const RecordedSample& sample) { return sample.tick_ns > 0; }));
+}
+
+TEST_CASE("a display shows what the person has to do with the device, for as long as it is so") {
+  const PracticePage page = page_of("一");
+  HeldDevice device(page);
+  std::vector<LiveView> views;
+  write_with_device(page, device, watched(device, &views));
+  CHECK(views.front().advice == "put the pen into the inkwell");
+  CHECK(views.back().advice.empty());
 }
 
 TEST_CASE("a session ends at its timeout") {

@@ -193,3 +193,13 @@ class Devices(ProgramTest):
                                 environment=hot)
         self.assertEqual(done.stderr.count("warm motors: the force is lowered"), 1, done.stderr)
         self.assertEqual(sum("warm motors" in told for told in json.loads(done.stdout)["warnings"]), 1)
+
+    def test_a_person_is_told_to_calibrate_the_device(self):
+        library = os.environ.get("CALLIGRAPHY_HELD_LIBHD")
+        if not library:
+            self.skipTest("built without the backend for openhaptics")
+        new = {"CALLIGRAPHY_LIBHD": library, "STAND_IN_IS_UNCALIBRATED": "1"}
+        for command in (["devices", "watch", "openhaptics", "--seconds", "1"],
+                        ["write", "一", "--device", "openhaptics", "--out", "out", "--timeout", "1"]):
+            done = self.run_program(*command, environment=new)
+            self.assertEqual(done.stderr.count("needs calibration: put the pen into the inkwell\n"), 1, done.stderr)

@@ -157,8 +157,7 @@ void add_phantom(py::module_& module) {
       .def_property_readonly(
           "statistics", [](const PhantomDevice& self) { return as_dict(self.statistics()); },
           fields_text<PhantomStatistics>().c_str())
-      .def_property_readonly("description", &PhantomDevice::description)
-      .def_property_readonly("warnings", &PhantomDevice::warnings);
+      .def_property_readonly("description", &PhantomDevice::description);
 }
 #endif
 
@@ -176,8 +175,7 @@ void add_openhaptics(py::module_& module) {
            "options"_a = OpenHapticsOptions{})
       .def_property_readonly("serial", &OpenHapticsDevice::serial)
       .def_property_readonly("library", &OpenHapticsDevice::library)
-      .def_property_readonly("last_error", &OpenHapticsDevice::last_error)
-      .def("advice", &OpenHapticsDevice::advice);
+      .def_property_readonly("last_error", &OpenHapticsDevice::last_error);
 }
 #endif
 

@@ -86,6 +86,15 @@ class PythonDevice final : public HapticDevice {
     call("close", failed, [](const py::object&) {});
   }
 
+  std::string advice() const override {
+    const py::gil_scoped_acquire gil;
+    std::string text;
+    if (py::get_override(static_cast<const HapticDevice*>(this), "advice")) {
+      call("advice", no_advice_, [&text](const py::object& result) { text = result.cast<std::string>(); });
+    }
+    return text;
+  }
+
   /// Reads the capabilities of a Python device before a loop relies on them. @throws its exception, or TypeError
   static void refuse_without_capabilities(const HapticDevice& device) {
     if (const auto* const self = dynamic_cast<const PythonDevice*>(&device)) {
@@ -138,6 +147,7 @@ class PythonDevice final : public HapticDevice {
   mutable Capabilities capabilities_;  ///< as last returned
   // Whether the last call failed; protected by the GIL.
   mutable bool no_capabilities_ = false;
+  mutable bool no_advice_ = false;
   bool no_read_ = false;
   bool no_write_ = false;
 };

@@ -130,6 +130,8 @@ void add_devices(py::module_& module) {
           "write", [](HapticDevice& self, const ArrayLike& force) { write(idle(self), vector(force, "force")); },
           "force"_a, "+ (3,). If it is not finite, also raises InvalidValue.")
       .def("close", when_idle(&HapticDevice::close))
+      .def_property_readonly("warnings", &HapticDevice::warnings)
+      .def("advice", &HapticDevice::advice, "+ A subclass may define it.")
       .def("__enter__", [](const py::object& self) { return self; })
       .def("__exit__", [](const py::object& self, const py::args&) { self.attr("close")(); });
 

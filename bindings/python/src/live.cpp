@@ -231,6 +231,7 @@ void add_live(py::module_& module) {
       .def_readonly("hint", &LiveView::hint)
       .def_property_readonly("to_start", [](const LiveView& self) { return array_of(self.to_start); })
       .def_property_readonly("servo", [](const LiveView& self) { return self.servo; })
+      .def_readonly("advice", &LiveView::advice)
       .def_readonly("progress", &LiveView::progress)
       .def_readonly("started", &LiveView::started);
   add_types<LiveOptions>(module);

@@ -581,6 +581,17 @@ def test_a_session_ends_when_watch_returns_false_and_the_force_is_zero(answer):
     assert result.statistics["ticks"] > 0
 
 
+def test_a_display_shows_what_the_device_wants_of_the_person():
+    class Docked(Bench):
+        def advice(self):
+            return "put the pen into the inkwell"
+
+    seen = []
+    cal.write_with_device(one_page(), Docked(), live_options(timeout=60.0), lambda view: bool(seen.append(view.advice)))
+    assert seen[0] == "put the pen into the inkwell"
+    assert Bench().advice() == "" and Bench().warnings == []
+
+
 def test_a_display_can_show_why_the_pen_is_not_guided_and_the_way_to_the_start():
     page = one_page("一")
     placed = page.characters[0]

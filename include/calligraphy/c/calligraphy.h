@@ -555,6 +555,7 @@ typedef struct calligraphy_servo_state {
   uint64_t ticks;         ///< steps so far
   uint64_t missed;        ///< steps that were due between two that came
   char fault[24];         ///< cause of a ramp-down, until the force has ramped up again: "unplugged"; or empty
+  char advice[128];       ///< what the person who holds the device has to do, such as to calibrate it; or empty
 } calligraphy_servo_state;
 
 /// A servo loop of a device and a renderer, at the renderer's rate. Both may be freed before it. While it is used, give

@@ -22,6 +22,9 @@ enum class DeviceStatus : std::uint8_t {
 /// Display text: "ok", "needs calibration".
 const char* to_string(DeviceStatus status) noexcept;
 
+/// What the person who holds the device has to do about it: "needs calibration: put the pen ..."; empty: nothing.
+const char* advice_text(DeviceStatus status) noexcept;
+
 /// Cause of a fault in a device, its link or its servo loop. Some are detected by the link, others by the codec, the
 /// device or the servo loop.
 enum class DeviceFault : std::uint8_t {

@@ -46,6 +46,10 @@ class HapticDevice {
   /// known to have a watchdog, which alone removes the force when the program is killed (SIGKILL) or the computer
   /// fails. ServoLoop::start() returns them.
   virtual std::vector<std::string> warnings() const { return {}; }
+
+  /// What the person who holds the device has to do now, such as "needs calibration: put the pen into the inkwell";
+  /// empty: nothing. Thread-safe.
+  virtual std::string advice() const { return {}; }
 };
 
 }  // namespace calligraphy

@@ -23,6 +23,7 @@ struct LiveView {
   WritingHint hint = WritingHint::none;  ///< why a pen on the paper is not guided in that tick (hint_text())
   Point to_start = Point::Zero();        ///< from its pen tip to the start of the stroke that is due [m, page]
   ServoStatus servo;                     ///< state of the loop and its fault, if any
+  std::string advice;                    ///< what the person has to do with the device (HapticDevice::advice())
   double progress = 0.0;                 ///< share of the page that is written, in [0, 1]
   bool started = false;  ///< the pen has been in front of the paper; until then no force is sent and nothing recorded
 };

@@ -101,6 +101,7 @@ class OpenHapticsDevice::Implementation {
   double temperature_ = unknown;  ///< of the warmest motor, as of the last look; 1: the vendor's limit
   int until_look_ = 0;            ///< [ticks]
   std::atomic<Enum> calibration_ = calibration_ok;  ///< as of the last check
+  std::atomic<bool> is_warm_ = false;
 };
 
 OpenHapticsDevice::Implementation::Implementation(const OpenHapticsOptions& options)
@@ -190,6 +191,7 @@ DeviceState OpenHapticsDevice::Implementation::read() noexcept {
   }
   const double time = time_() - opened_;
   heat_.update(judgement.status == DeviceStatus::warm_motors, temperature_, time - state_.time);
+  is_warm_.store(heat_.is_warm(), std::memory_order_relaxed);
   if (heat_.is_warm()) judgement = graver(judgement, {DeviceStatus::warm_motors, DeviceFault::none});
   if (calibration_.load(std::memory_order_relaxed) != calibration_ok) {
     judgement = graver(judgement, {DeviceStatus::needs_calibration, DeviceFault::uncalibrated});
@@ -261,8 +263,9 @@ void OpenHapticsDevice::Implementation::close() noexcept {
 }
 
 std::string OpenHapticsDevice::Implementation::advice() const {
-  const Enum calibration = calibration_.load(std::memory_order_relaxed);
-  if (calibration == calibration_ok) return {};
+  if (calibration_.load(std::memory_order_relaxed) == calibration_ok) {
+    return is_warm_.load(std::memory_order_relaxed) ? advice_text(DeviceStatus::warm_motors) : "";
+  }
   if (calibration_style_ == calibration_inkwell) return "needs calibration: put the pen into the inkwell";
   if (calibration_style_ == calibration_encoder_reset) {
     return "needs calibration: hold the pen in the pose that the vendor's manual prescribes for an encoder reset";

@@ -169,6 +169,7 @@ class PhantomDevice::Core final : public LinkListener {
     } else if (output_.warmest() >= MotorTemperature::warm) {
       state.status = DeviceStatus::warm_motors;
     }
+    if (state.status != DeviceStatus::stale) status_.store(state.status, std::memory_order_relaxed);
     return state;
   }
 
@@ -231,6 +232,8 @@ class PhantomDevice::Core final : public LinkListener {
   const Motion& motion() const noexcept { return motion_; }
   const std::string& description() const noexcept { return description_; }
   const std::vector<std::string>& warnings() const noexcept { return warnings_; }
+  /// Of the last sample that was not stale.
+  DeviceStatus status() const noexcept { return status_.load(std::memory_order_relaxed); }
 
  private:
   struct Counts {
@@ -400,6 +403,7 @@ class PhantomDevice::Core final : public LinkListener {
   ForceOutput output_;
   Eigen::Vector3d sent_force_ = Eigen::Vector3d::Zero();  ///< of the last command that was sent [N]
 
+  std::atomic<DeviceStatus> status_ = DeviceStatus::stale;  ///< for any thread
   Counts counts_;
   LinkCounts closed_counts_;
   std::atomic<bool> closing_ = false;
@@ -456,5 +460,6 @@ bool PhantomDevice::docked() const noexcept { return core_->motion().docked; }
 PhantomStatistics PhantomDevice::statistics() const noexcept { return core_->statistics(); }
 const std::string& PhantomDevice::description() const noexcept { return core_->description(); }
 std::vector<std::string> PhantomDevice::warnings() const { return core_->warnings(); }
+std::string PhantomDevice::advice() const { return advice_text(core_->status()); }
 
 }  // namespace calligraphy

@@ -266,9 +266,11 @@ TEST_CASE("warm motors are reported while the force is lowered, to none if need 
   run(16'000, 2e-4);
   CHECK(lab.force().norm() == Approx(peak));
   CHECK((last.status == DeviceStatus::warm_motors) == tells_temperature);  // it would come and go
+  CHECK(contains(static_cast<HapticDevice&>(device).advice(), "warm motors") == tells_temperature);
   lab.runtime->set_motor_temperature(0, 0.4);
   run(100, 0.0);
   CHECK(last.status == DeviceStatus::ok);
+  CHECK(device.advice().empty());
   CHECK(loop.servo.statistics().faults == ServoStatistics().faults);
   CHECK(lab.runtime->broken_rules() == 0);
 }

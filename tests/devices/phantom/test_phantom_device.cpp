@@ -38,6 +38,7 @@ TEST_CASE("a phantom needs its inkwell before positions are valid, and then they
   HeldPhantom held;
   held.arm.count_offset = {60000, 7, 40000};  // encoders start at arbitrary counts
   CHECK(held.device.read().status == DeviceStatus::needs_calibration);
+  CHECK_THAT(held.device.advice(), Contains("inkwell"));
   const DeviceState first = held.turn();
   CHECK(first.status == DeviceStatus::needs_calibration);
   CHECK(first.fault == DeviceFault::uncalibrated);
@@ -382,6 +383,7 @@ TEST_CASE("warm motors get less torque, are reported, and never overheat", "[pha
   if (calligraphy_test::sanitized) return;
   last_force = held.arm.motor_force().norm();
   CHECK(was_warm);
+  CHECK_THAT(held.device.advice(), Contains("warm motors"));
   CHECK((held.device.read().force - held.arm.motor_force()).norm() < 0.02);  // not the 2.5 N that were asked for
   CHECK(last_force < 2.0);
   CHECK(last_force > 0.6);

@@ -57,6 +57,7 @@ class OpenHapticsDevice final : public HapticDevice {
   ServoClock* clock() noexcept override;
   /// That the vendor documents no watchdog.
   std::vector<std::string> warnings() const override;
+  std::string advice() const override;
 
   /// Serial number of the device, as the runtime reports it.
   const std::string& serial() const noexcept;
@@ -64,9 +65,6 @@ class OpenHapticsDevice final : public HapticDevice {
   const std::string& library() const noexcept;
   /// Most recent error code of the runtime; 0: none so far. Thread-safe.
   std::uint32_t last_error() const noexcept;
-  /// What the user has to do, for example "needs calibration: put the pen into the inkwell"; otherwise empty.
-  /// Thread-safe.
-  std::string advice() const;
 
  private:
   class Implementation;

@@ -109,6 +109,7 @@ class PhantomDevice final : public HapticDevice {
   /// Reports a refused real-time priority, with a remedy, and a wire profile without the dead-man bit (`toggle`) or the
   /// enable bit (`motors-on`).
   std::vector<std::string> warnings() const override;
+  std::string advice() const override;
 
  private:
   class Core;
