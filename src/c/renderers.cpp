@@ -106,7 +106,7 @@ calligraphy_status calligraphy_hint_text(const calligraphy_tick* tick, char* tex
   return guarded([&] {
     const calligraphy_tick given = read_struct(tick, "calligraphy_tick");
     target(text, "text");
-    const auto hint = enumeration("hint", given.hint, WritingHint::lift_first);
+    const auto hint = enumeration("hint", given.hint, WritingHint::warm_motors);
     const std::string words = hint_text(hint, {given.to_start[0], given.to_start[1]});
     if (words.size() >= capacity) {
       throw Refusal(CALLIGRAPHY_TOO_SMALL, "capacity = " + std::to_string(capacity) + ", but the text has " +

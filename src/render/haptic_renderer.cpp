@@ -49,6 +49,7 @@ void HapticRenderer::report(const PenState& pen, const WriterState& writer, cons
   tick_.contact = writer.contact;
   tick_.covered = writer.covered;
   tick_.hint = hint_in(writer.phase);
+  if (sent.is_warm && tick_.hint == WritingHint::none) tick_.hint = WritingHint::warm_motors;
   tick_.to_start = writer.to_start;
   tick_.attraction = guidance.attraction;
   tick_.wrong_way = guidance.wrong_way;

@@ -54,6 +54,8 @@ const char* to_string(WritingHint hint) noexcept {
       return "too far from the stroke";
     case WritingHint::lift_first:
       return "lift the pen first";
+    case WritingHint::warm_motors:
+      return "the motors are warm: less force";
   }
   return "";
 }
@@ -74,6 +76,7 @@ std::string hint_text(WritingHint hint, const Point& to_start) {
     case WritingHint::wrong_direction:
     case WritingHint::off_stroke:
     case WritingHint::lift_first:
+    case WritingHint::warm_motors:
       break;
   }
   return words;

@@ -38,7 +38,7 @@ TEST_CASE("a hint says how far the start is and in which of eight directions", "
 
 TEST_CASE("a hint that leads nowhere else names no direction", "[render]") {
   for (const WritingHint hint : {WritingHint::none, WritingHint::write, WritingHint::wrong_direction,
-                                 WritingHint::off_stroke, WritingHint::lift_first}) {
+                                 WritingHint::off_stroke, WritingHint::lift_first, WritingHint::warm_motors}) {
     CHECK(hint_text(hint, {0.01, 0.01}) == to_string(hint));
   }
   CHECK(hint_text(WritingHint::too_far, {std::nan(""), 0.0}) == "too far from the start");

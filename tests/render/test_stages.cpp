@@ -270,8 +270,8 @@ TEST_CASE("a pen pressed for a minute: warm motors reduce the force to the conti
     pen.go(place);
     rest(pen, place, 500);
     const HapticTick& tick = renderer.last();
-    CHECK(pen.max_force == Approx(3.3));
-    double last = tick.force.norm(), max_rise = 0.0, max_turn = 0.0, hottest = 0.0;
+    CHECK(pen.max_force == Approx(2.0 * 0.88).epsilon(0.03));
+    double last = tick.force.norm(), max_rise = 0.0, max_fall = 0.0, max_turn = 0.0, hottest = 0.0;
     constexpr int seconds = calligraphy_test::sanitized ? 40 : 60;
     for (int i = 0; i < 1000 * seconds; ++i) {
       pen.at(place);
@@ -280,6 +280,7 @@ TEST_CASE("a pen pressed for a minute: warm motors reduce the force to the conti
       Vector3d wanted(0, 0, tick.normal);
       wanted.head<2>() = tick.attraction + tick.wrong_way + tick.friction;
       max_rise = std::max(max_rise, size - last);
+      max_fall = std::max(max_fall, 1.0 - size / last);
       max_turn = std::max(max_turn, (tick.force / size - wanted.normalized()).norm());
       hottest = std::max(hottest, tick.heat);
       last = size;
@@ -287,8 +288,10 @@ TEST_CASE("a pen pressed for a minute: warm motors reduce the force to the conti
     CHECK(last == Approx(0.88).epsilon(0.03));
     CHECK(last >= 0.88 * (1.0 - 1e-9));
     CHECK(max_rise <= 1e-9);
+    CHECK(max_fall <= 2.01 * 0.001 / 10.0);  // by a tenth per second, and two ticks' worth in the last one
+    CHECK(tick.hint != WritingHint::none);  // of the default law, which has let go, another one
     CHECK(max_turn < 1e-3);
-    CHECK(hottest <= 1.0);
+    CHECK(hottest <= 1.0 + 1e-7);
     pen.go(at(stroke.start, 0.01));
     rest(pen, at(stroke.start, 0.01), 30'000);
     CHECK(tick.heat < 0.06);

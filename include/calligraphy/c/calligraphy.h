@@ -471,7 +471,8 @@ typedef enum calligraphy_hint {
   CALLIGRAPHY_HINT_WRONG_DIRECTION = 5,  ///< at the start, but moving another way
   CALLIGRAPHY_HINT_ANOTHER_STROKE = 6,   ///< moving as if it began another stroke
   CALLIGRAPHY_HINT_OFF_STROKE = 7,       ///< writing, but too far from the stroke or pulled aside
-  CALLIGRAPHY_HINT_LIFT_FIRST = 8        ///< lift the pen first: the stroke before has just been finished
+  CALLIGRAPHY_HINT_LIFT_FIRST = 8,       ///< lift the pen first: the stroke before has just been finished
+  CALLIGRAPHY_HINT_WARM_MOTORS = 9       ///< guided, but with less force than that takes: let the motors rest
 } calligraphy_hint;
 
 /// Result of one tick.

@@ -45,7 +45,7 @@ enum class TickStatus : std::uint8_t {
 /// "ok", "stale", "bad_sample", "device_fault".
 const char* to_string(TickStatus status) noexcept;
 
-/// Why a pen on the paper is not guided, for a display to show.
+/// Why a pen on the paper is not guided, or by less than it should be, for a display to show.
 enum class WritingHint : std::uint8_t {
   none,             ///< it is guided, not on the paper, or back on it once all is written
   write,            ///< at the start of the stroke that is due: write on
@@ -55,11 +55,12 @@ enum class WritingHint : std::uint8_t {
   wrong_direction,  ///< at the start, but moving another way
   another_stroke,   ///< moving as if it began another stroke
   off_stroke,       ///< writing, but too far from the stroke or pulled aside: `contact.closest` is where to return
-  lift_first        ///< lift the pen first: the stroke before has just been finished
+  lift_first,       ///< lift the pen first: the stroke before has just been finished
+  warm_motors       ///< it is guided, but the motors' heat leaves less force than that takes: let them rest
 };
 
 /// "", "write on", "too far from the start", "at the stroke's end", "in the middle of the stroke", "wrong direction",
-/// "another stroke's start", "too far from the stroke", "lift the pen first".
+/// "another stroke's start", "too far from the stroke", "lift the pen first", "the motors are warm: less force".
 const char* to_string(WritingHint hint) noexcept;
 
 /// The words for people, with the distance and the direction to the start [m, page; y up] where that is where to go:

@@ -77,7 +77,7 @@ struct ForceLimits {
   /// faults. What its springs and dampers change because the pen moves follows without lag. Infinite: no limit [N/s].
   double in_plane_rate = 100.0;
   double normal_rate = 400.0;  ///< likewise, of the force along the normal [N/s]
-  /// Of the motors: as they warm, the permitted force falls with it from the device's peak to its continuous force. 0:
+  /// Of the motors: as they warm, the permitted force falls from twice the device's continuous force to that force. 0:
   /// the peak always [s].
   double thermal_time_constant = 0.0;
   double max_speed = 5.0;  ///< a sample that implies a faster pen is a fault of the device, not a motion [m/s, device]

@@ -22,6 +22,7 @@ struct SentForce {
   Eigen::Vector3d viscous = Eigen::Vector3d::Zero();  ///< as HapticTick::viscous [N, page]
   double energy_given = 0.0;                          ///< to the hand, as observed; 0 without an account of it [J]
   double heat = 0.0;                                  ///< of the motors; 0 without thermal budget [1]
+  bool is_warm = false;                               ///< the heat leaves less than was wanted
 };
 
 /// Limits the forces by the energy budget, by peak and heat, which keep the direction, and by the rate.

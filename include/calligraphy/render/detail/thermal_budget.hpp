@@ -7,8 +7,10 @@
 namespace calligraphy {
 
 /// A first-order model of motor heating: driven by the square of the force, in equilibrium at the continuous force,
-/// with time constant `time_constant`. The permitted force falls from the peak to the continuous force over the last
-/// fifth of the heat range, so it never steps, and the heat never exceeds that of the continuous force.
+/// with time constant `time_constant`. The permitted force is the largest one that may still sink to the continuous
+/// force by its share 1 / time_constant [1/s] before the heat exceeds 1: c (1 + sqrt(1 - h)), at most twice the
+/// continuous force c (docs/stability-derivation.md). So a hand that leans on it gives way by 10 % per second with 10 s,
+/// as much as it can just tell of two forces, and not in a moment.
 struct ThermalBudget {
   double peak = 0.0;           ///< [N]
   double continuous = 0.0;     ///< [N]
@@ -18,9 +20,7 @@ struct ThermalBudget {
   double last_share = 0.0;     ///< of the way to equilibrium that it went in that time [1]
 
   double max_force() const noexcept {
-    constexpr double warm = 0.8;
-    const double share = std::clamp((1.0 - heat) / (1.0 - warm), 0.0, 1.0);
-    return share > 0.0 ? continuous + share * (peak - continuous) : continuous;  // the peak may be infinite
+    return std::min(peak, continuous * (1.0 + std::sqrt(std::max(1.0 - heat, 0.0))));
   }
   /// Accounts for `force` [N] held for `seconds`.
   void held(double force, double seconds) noexcept {
