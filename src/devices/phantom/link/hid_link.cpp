@@ -1,5 +1,5 @@
 // hidapi stores an error text per device without a lock. Concurrent reading and writing is nevertheless safe as long as
-// neither continues after a failure, so both stop until the reader has reopened the device.
+// neither continues after a failure, so both stop until the reader has reopened the device or read once more, alone.
 #include "hid_link.hpp"
 
 #include <hidapi.h>
@@ -13,6 +13,7 @@
 #include <calligraphy/devices/servo_thread.hpp>
 
 #include "base/monotonic_clock.hpp"
+#include "hidraw.hpp"
 #include "report_descriptor.hpp"
 #include "sysfs.hpp"
 #include "usb_device.hpp"
@@ -100,6 +101,15 @@ void HidLink::command(std::span<const std::byte> packet) {
   if (write_failed_ || !write_report(packet)) refuse(wanted_, "the command was not accepted: the transfer failed");
 }
 
+/// Whether the locked hidraw node answers, and goes on answering for so long.
+bool HidLink::answers(const std::string& node, double seconds) noexcept {
+  for (const double end = monotonic_seconds() + seconds;;) {
+    if (stopping_ || !hidraw_answers(lock_.descriptor_of(node), wanted_)) return false;
+    if (monotonic_seconds() >= end) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(max_read));
+  }
+}
+
 void HidLink::connect() {
   bus_.wait(0.0);  // processes pending hot-plug events
   const PluggedDevice place = found(bus_.context(), wanted_);
@@ -113,6 +123,12 @@ void HidLink::connect() {
   if (!may_open(node)) refuse(place, permission_advice(node));
   if (path.empty()) refuse(place, "hidapi does not find it: unplug it and plug it in again");
   lock_.take(place);
+  // hidapi-hidraw 0.13.1 frees a wild pointer if the device vanishes while it opens the node: an unplug may follow a
+  // plug that is not all the way in.
+  if (through_hidraw_ && !answers(path, opened_at_ > 0.0 ? options_.settle : 0.0)) {
+    lock_.release();
+    refuse(place, path + " does not answer: it is being unplugged");
+  }
   hid_device* const device = opened(path);
   if (device == nullptr) {
     lock_.release();
@@ -165,14 +181,22 @@ void HidLink::run(std::promise<void> opened) noexcept {
   disconnect();
 }
 
-/// Runs until the device fails or the link is closed.
+/// Runs until the device has to be reopened or the link is closed. After a failed write a hidraw node that answers stays
+/// open: hidapi may not survive opening it, since the failure may be the beginning of an unplug.
 void HidLink::read_reports() noexcept {
   std::array<unsigned char, max_packet_bytes> report{};
   while (!stopping_) {
+    const bool resumes = write_failed_ && monotonic_seconds() >= opened_at_ + min_stay;
     const int size = hid_read_timeout(device_, report.data(), report.size(), max_read);
-    if (size < 0 || write_failed_) {
+    if (size < 0 || (write_failed_ && !hidraw_answers(raw_node_, wanted_))) {
       failed_.fetch_add(size < 0 ? 1 : 0, std::memory_order_relaxed);
       break;
+    }
+    if (write_failed_) tell(DeviceFault::link_error);
+    if (resumes) {
+      opened_at_ = monotonic_seconds();
+      write_failed_ = false;
+      start();
     }
     if (size > 0) {
       last_received_ = monotonic_seconds();
@@ -195,7 +219,7 @@ void HidLink::reopen() noexcept {
     if (told_ != DeviceFault::unplugged) tell(DeviceFault::link_error);
     start();
   } catch (const std::exception&) {
-    tell(DeviceFault::unplugged);
+    if (!stopping_) tell(DeviceFault::unplugged);
     for (const double end = monotonic_seconds() + options_.search; monotonic_seconds() < end && !stopping_;) {
       std::this_thread::sleep_for(std::chrono::milliseconds(max_read));
     }

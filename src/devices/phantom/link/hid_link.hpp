@@ -21,8 +21,8 @@ namespace calligraphy::phantom {
 /// of report.
 ///
 /// hidapi hides details: it ignores stalls of incoming reports, buffers about 30 reports and drops the oldest, and does
-/// not give the cause of a failure. This link therefore reports `unplugged` if the device cannot be reopened
-/// immediately, otherwise `link_error`; lost reports show in the device's own sequence numbers.
+/// not give the cause of a failure. This link therefore reports `link_error` if the hidraw node still answers or the
+/// device can be reopened immediately, otherwise `unplugged`; lost reports show in the device's own sequence numbers.
 class HidLink final : public ThreadedLink {
  public:
   /// @throws DeviceError when libusb, used to find the device, cannot be initialised
@@ -41,6 +41,7 @@ class HidLink final : public ThreadedLink {
   void write_packets() noexcept;
   bool write_report(std::span<const std::byte> packet) noexcept;
   void write_directly(std::span<const std::byte> packet) noexcept override;
+  bool answers(const std::string& node, double seconds) noexcept;
   void connect();
   void start() noexcept;
   void disconnect() noexcept;
@@ -58,9 +59,9 @@ class HidLink final : public ThreadedLink {
   std::atomic<int> raw_node_{-1};
   bool through_hidraw_ = false;            ///< this program is linked to hidapi-hidraw
   std::atomic<bool> numbered_{false};      ///< reports begin with a report number
-  std::atomic<bool> write_failed_{false};  ///< nothing more is written until the reader has reopened the device
+  std::atomic<bool> write_failed_{false};  ///< nothing more is written until the reader permits it
   WakeUp bell_;
-  double opened_at_ = 0.0;  ///< by monotonic_seconds()
+  double opened_at_ = 0.0;  ///< or resumed after a failed write; by monotonic_seconds()
 };
 
 /// The device path as given by hidapi, which depends on the variant that the program links; empty if hidapi does not

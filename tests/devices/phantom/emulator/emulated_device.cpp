@@ -164,6 +164,11 @@ void EmulatedDevice::unplug(UnplugOrder order) {
   for (const std::string& path : paths) bed_.remove("/sys" + path);
 }
 
+void EmulatedDevice::let_go() {
+  const std::lock_guard<std::mutex> alone(mutex_);
+  hidraw_->unplug();
+}
+
 void EmulatedDevice::on_packet(std::function<void(std::span<const std::byte>)> listener) {
   const std::lock_guard<std::mutex> alone(mutex_);
   listener_ = std::move(listener);

@@ -41,6 +41,8 @@ struct HostActions {
   int flying = 0;      ///< pending transfers from the device
   int held = 0;        ///< transfers to the device that it has not accepted
   int open_nodes = 0;  ///< programs that have the hidraw node open
+  int identified = 0;  ///< questions to the hidraw node for its ids
+  int described = 0;   ///< the same for its descriptor: hidapi-hidraw opens the node
 };
 
 /// Behind the nodes stands one queue each way. A packet that finds no transfer waits for the next one, as it would in
@@ -57,6 +59,8 @@ class EmulatedDevice {
   /// Its nodes get new numbers each time, as they do on a real bus.
   void plug_in(int bus, const std::string& port);
   void unplug(UnplugOrder order);
+  /// As an unplug begins: the hidraw node answers no more, while the bus and the system still list it.
+  void let_go();
   bool plugged() const { return !system_paths_.empty(); }
 
   /// Called with each packet from the host, in the test bed's thread.

@@ -54,7 +54,15 @@ gboolean HidrawNode::asked(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpoi
   const IoctlMemory data = pointed_to(umockdev_ioctl_client_get_arg(client), 0, _IOC_SIZE(request));
   const Octets descriptor = report_descriptor();
   int error = 0;
-  if (node.gone_) {
+  bool gone = false;
+  {
+    const std::lock_guard<std::mutex> alone(node.device_.mutex_);
+    gone = node.gone_;
+    node.device_.host_.identified += request == HIDIOCGRAWINFO;
+    node.device_.host_.described += request == HIDIOCGRDESCSIZE;
+    node.device_.happened_.notify_all();
+  }
+  if (gone) {
     error = ENODEV;
   } else if (!data) {
     error = EFAULT;

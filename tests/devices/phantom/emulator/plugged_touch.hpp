@@ -25,8 +25,8 @@ class FreshBed : public TestBed {
 /// Whether a program has pending transfers or the hidraw node open.
 inline bool listens(const HostActions& host) { return host.flying + host.open_nodes > 0; }
 
-/// Time-outs long enough to avoid false faults on a busy machine; a device that comes back is found immediately.
-constexpr calligraphy::phantom::LinkOptions patient{60.0, 60.0, 0.005};
+/// Time-outs long enough to avoid false faults on a busy machine; a device that comes back is opened immediately.
+constexpr calligraphy::phantom::LinkOptions patient{60.0, 60.0, 0.005, 0.005};
 
 inline std::span<const std::byte> as_packet(const Octets& bytes) { return std::as_bytes(std::span(bytes)); }
 

@@ -67,6 +67,25 @@ TEST_CASE("an unplugged HID is reported once, found again elsewhere by its seria
   CHECK_FALSE(listens(stranger.host()));
 }
 
+TEST_CASE("hidapi opens no HID that is being unplugged, though the system still lists it", "[hid]") {
+  if (!through_hidraw) return;
+  const bool write_fails_first = GENERATE(false, true);
+  PluggedTouch touch(hid_touch(), {60.0, 60.0, 0.005, 60.0});
+  touch.open();
+  if (write_fails_first) {
+    touch.device.set_taking(Taking::stalls);
+    touch.link->send(as_packet(numbered(1)));
+    REQUIRE(touch.listener.wait_for_none_after(1));
+  }
+  touch.device.let_go();
+  REQUIRE(touch.listener.wait_for(DeviceFault::unplugged));
+  CHECK(touch.device.host().described == 1);
+  touch.device.unplug(UnplugOrder::gone_first);
+  touch.device.plug_in(1, "3");
+  REQUIRE(touch.device.wait([](const HostActions& host) { return host.identified > 2; }));
+  CHECK(touch.device.host().described == 0);
+}
+
 TEST_CASE("a report that a HID refuses is a link error, and the device is reopened", "[hid]") {
   PluggedTouch touch(hid_touch());
   touch.open();
