@@ -113,14 +113,14 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
     input.stroke_finished = is_finished(leaves);
   } else if (input.contact && input.may_start) {
     if (writer_.state == InteractionState::separation) put_down(tip);
-    input.begins = begins(tip);
+    input.begins = begins(pen);
   }
   return input;
 }
 
 [[gnu::noinline]] void StrokeSequencer::put_down(const Point& tip) noexcept {
   writer_.covered = 0.0;
-  capture_.put_down(tip, character_->starts, static_cast<std::size_t>(writer_.stroke));
+  set_out(tip);
   if (tolerances_.coverage == 0.0) return;
   const StrokeContact nearest = due_->geometry.nearest(tip, stroke_);
   writer_.rests = nearest.closest.distance <= tolerances_.corridor * writer_.em;
@@ -129,9 +129,19 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
   writer_.contact = nearest;
 }
 
-bool StrokeSequencer::begins(const Point& tip) noexcept {
+void StrokeSequencer::set_out(const Point& tip) noexcept {
+  capture_.put_down(tip, character_->starts, static_cast<std::size_t>(writer_.stroke));
+  due_->follower.begin(tip, capture_.misplaced());
+}
+
+/// The stroke is followed from where the pen sets out: the first stretch may bend, so that its ends do not say how it
+/// was written.
+bool StrokeSequencer::begins(const PenState& pen) noexcept {
+  const Point tip = pen.tip.head<2>(), from = capture_.begin();
   const auto due = static_cast<std::size_t>(writer_.stroke);
   const CaptureVerdict verdict = capture_.update(tip, character_->starts, due, writer_.em, tolerances_);
+  if (capture_.begin() != from) due_->follower.begin(capture_.begin(), capture_.misplaced());
+  if (pen.on_paper) due_->follower.update(tip, hand(pen));
   if (verdict == CaptureVerdict::begun) return true;
   if (verdict == CaptureVerdict::another_stroke) writer_.rests = false;
   if (writer_.rests) writer_.contact = due_->geometry.update(tip, stroke_);
@@ -157,7 +167,6 @@ bool StrokeSequencer::is_finished(bool leaves) const noexcept {
   writer_.events |= TickEvent::stroke_started;
   writer_.rests = false;
   due_->geometry.begin(capture_.begin());
-  due_->follower.begin(capture_.begin(), capture_.misplaced());
   write_on(pen);
 }
 
@@ -181,14 +190,14 @@ bool StrokeSequencer::is_finished(bool leaves) const noexcept {
   if (lift_between_strokes_) {
     writer_.phase = WritingPhase::finished;
   } else if (!all_written()) {
-    capture_.put_down(tip, character_->starts, static_cast<std::size_t>(writer_.stroke));
+    set_out(tip);
   }
 }
 
 [[gnu::noinline]] void StrokeSequencer::abandon_stroke(const Point& tip) noexcept {
   writer_.events |= TickEvent::stroke_abandoned;
   due_->geometry.reload();
-  capture_.put_down(tip, character_->starts, static_cast<std::size_t>(writer_.stroke));
+  set_out(tip);
 }
 
 [[gnu::noinline]] void StrokeSequencer::lift() noexcept {

@@ -2,8 +2,10 @@
 #include "../catch.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -198,6 +200,26 @@ TEST_CASE("a pen put down beside a stroke that it begins at once, but out of the
   CHECK(writer.rests);
   CHECK(writer.contact.backwards == 0.0);
   CHECK(writer.contact.closest.point.isApprox(0.04 * Point(0.5, 0.8)));
+}
+
+TEST_CASE("a stroke that is drawn exactly is finished with every preset, whichever way the entry of the brush points",
+          "[render]") {
+  for (const StrokeTolerances& tolerances :
+       {StrokeTolerances::lenient(), StrokeTolerances::normal(), StrokeTolerances::strict()}) {
+    RendererOptions options;
+    options.tolerances = tolerances;
+    for (const double entry : {0.05, 0.1, 0.15}) {
+      for (double angle = -2.4; angle < 2.5; angle += 0.2) {
+        const Point start(0.3, 0.5), way(std::cos(angle), std::sin(angle));
+        const StrokeInput input{4, {start, start + 3.0 * entry * way, {0.55, 0.5}, {0.8, 0.4}}};
+        StrokeSequencer sequencer({{make_character(U'\u4E3F', std::span(&input, 1)), {{0.0, 0.0}, 0.04}}}, options,
+                                  test_device(), {});
+        for (const Point& tip : way_along(sequencer, 0)) sequencer.update(pen_at(tip, true));
+        CAPTURE(tolerances.corridor, entry, angle);
+        CHECK(sequencer.update(pen_at({0.0, 0.0}, false)).character == 1);
+      }
+    }
+  }
 }
 
 TEST_CASE("a bad sample changes nothing that is known of the writer, and happens nowhere", "[render]") {

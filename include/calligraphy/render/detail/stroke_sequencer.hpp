@@ -36,7 +36,8 @@ class StrokeSequencer {
 
   TransitionInput advance(const PenState& pen) noexcept;
   void put_down(const Point& tip) noexcept;
-  bool begins(const Point& tip) noexcept;
+  void set_out(const Point& tip) noexcept;
+  bool begins(const PenState& pen) noexcept;
   void write_on(const PenState& pen) noexcept;
   bool is_finished(bool leaves) const noexcept;
 
