@@ -76,7 +76,9 @@ int main() {
     place = state.position.x();
     return {100.0 * (0.02 - state.position.x()), 0.0, 0.0};
   });
-  for (const std::string& warning : loop.start()) std::printf("%s\n", warning.c_str());
+  loop.start([](const std::vector<std::string>& warnings) {  // before the force
+    for (const std::string& warning : warnings) std::printf("%s\n", warning.c_str());
+  });
   while (loop.statistics().ticks < 1500) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   loop.stop();  // ramps the force down to zero
   const ServoStatistics done = loop.statistics();

@@ -20,6 +20,7 @@
 
 #include "commands.hpp"
 #include "options.hpp"
+#include "output_file.hpp"
 
 namespace calligraphy::tools {
 namespace {
@@ -99,6 +100,7 @@ std::unique_ptr<HapticDevice> open_device(const DeviceChoice& choice, [[maybe_un
 #endif
 #ifdef CALLIGRAPHY_WITH_OPENHAPTICS
   if (choice.kind == DeviceKind::openhaptics) {
+    keep_output_to_ourselves();
     OpenHapticsOptions options;
     options.device = choice.which;
     return std::make_unique<OpenHapticsDevice>(options);

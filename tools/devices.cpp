@@ -84,6 +84,7 @@ Section phantoms() {
 
 #ifdef CALLIGRAPHY_WITH_OPENHAPTICS
 Section vendor_runtime() {
+  keep_output_to_ourselves();
   const OpenHapticsRuntime runtime = openhaptics_runtime();
   if (runtime.found) {
     return {fmt::format("openhaptics: {}\n", runtime.library), {{"found", true}, {"library", runtime.library}}};
@@ -107,9 +108,9 @@ void list(bool as_json) {
   const Section phantom = phantoms(), openhaptics = vendor_runtime(), profiles = simulated();
   if (as_json) {
     const Json all = {{"phantom", phantom.json}, {"openhaptics", openhaptics.json}, {"simulated", profiles.json}};
-    fmt::print("{}\n", all.dump(2));
+    fmt::print(output(), "{}\n", all.dump(2));
   } else {
-    fmt::print("{}{}{}", phantom.text, openhaptics.text, profiles.text);
+    fmt::print(output(), "{}{}{}", phantom.text, openhaptics.text, profiles.text);
   }
 }
 
@@ -157,7 +158,7 @@ void probe(const ProbeOptions& options) {
   }
   write_output(options.out, text.str());
   if (!failure.empty()) throw DeviceError(failure + "; only the descriptors were written to " + options.out);
-  std::FILE* const told = options.out == standard_output ? stderr : stdout;
+  std::FILE* const told = options.out == standard_output ? stderr : output();
   fmt::print(told, "{}: descriptors and {} transfers written to {}\n", describe_device(device), transfers, options.out);
 }
 #else
@@ -241,7 +242,7 @@ void watch(const WatchOptions& options) {
   ServoLoop loop(seen, [](const DeviceState&) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); });
   const Interrupt interrupt;
   StopKey key;
-  fmt::print("{}, without force; {} stops\n", device->capabilities().model, stop_keys(key));
+  fmt::print(output(), "{}, without force; {} stops\n", device->capabilities().model, stop_keys(key));
   for (const std::string& warning : loop.start()) spdlog::warn("{}", warning);
   const double begin = monotonic_seconds();
   Sighting newest;
@@ -254,15 +255,15 @@ void watch(const WatchOptions& options) {
     advice.look(seen.advice());
     const ServoStatus status = loop.status();
     const Eigen::Vector3d p = 1e3 * newest.state.position;
-    fmt::print("x {:8.2f}  y {:8.2f}  z {:8.2f} mm{}  buttons {:04b}  {}{}{}  {} stale of {} ticks\n", p.x(), p.y(),
-               p.z(), seen.has_joints() ? angles(newest.joints) : "", newest.state.buttons, to_string(status.device),
-               status.fault == DeviceFault::none ? "" : ": ",
+    fmt::print(output(), "x {:8.2f}  y {:8.2f}  z {:8.2f} mm{}  buttons {:04b}  {}{}{}  {} stale of {} ticks\n", p.x(),
+               p.y(), p.z(), seen.has_joints() ? angles(newest.joints) : "", newest.state.buttons,
+               to_string(status.device), status.fault == DeviceFault::none ? "" : ": ",
                status.fault == DeviceFault::none ? "" : to_string(status.fault), loop.statistics().stale_samples,
                loop.statistics().ticks);
-    std::fflush(stdout);
+    std::fflush(output());
   }
   loop.stop();
-  fmt::print("{}", lines(loop.statistics()));
+  fmt::print(output(), "{}", lines(loop.statistics()));
 }
 
 }  // namespace
@@ -305,7 +306,7 @@ void add_devices(CLI::App& program) {
                    fmt::format("Name of the profile: {}", fmt::join(phantom::wire_profile_names(), ", ")))
       ->required()
       ->check(CLI::IsMember(phantom::wire_profile_names()));
-  profiles->callback([profile] { fmt::print("{}", phantom::wire_profile_text(*profile)); });
+  profiles->callback([profile] { fmt::print(output(), "{}", phantom::wire_profile_text(*profile)); });
 #endif
 
   CLI::App* const watcher = command->add_subcommand(

@@ -21,6 +21,7 @@
 #include "help_page.hpp"
 #include "interrupt.hpp"
 #include "mistyped.hpp"
+#include "output_file.hpp"
 
 namespace {
 
@@ -28,14 +29,14 @@ namespace {
 int fail(int code, std::string message) noexcept {
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
   std::replace_if(message.begin(), message.end(), is_control, ' ');
-  std::fflush(stdout);
+  std::fflush(calligraphy::tools::output());
   std::fprintf(stderr, "calligraphy: %s\n", message.c_str());
   return code;
 }
 
 int flush() noexcept {
   std::cout.flush();
-  return std::fflush(stdout) == 0 && std::cout ? 0 : fail(1, "cannot write to standard output");
+  return std::fflush(calligraphy::tools::output()) == 0 && std::cout ? 0 : fail(1, "cannot write to standard output");
 }
 
 class HelpFormatter final : public CLI::FormatterBase {

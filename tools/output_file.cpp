@@ -1,6 +1,10 @@
 #include "output_file.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cstdio>
+#include <new>
 
 #include <CLI/CLI.hpp>
 
@@ -10,6 +14,8 @@
 namespace calligraphy::tools {
 namespace {
 
+std::FILE* own_output = nullptr;  ///< null: `stdout`
+
 CLI::Option* add_out(CLI::App& command, std::string& out, const std::string& description) {
   const auto is_named = [](const std::string& word) {
     return word.empty() ? std::string("the name is empty") : std::string();
@@ -18,6 +24,18 @@ CLI::Option* add_out(CLI::App& command, std::string& out, const std::string& des
 }
 
 }  // namespace
+
+std::FILE* output() noexcept { return own_output != nullptr ? own_output : stdout; }
+
+void keep_output_to_ourselves() {
+  if (own_output != nullptr) return;
+  std::fflush(stdout);
+  const int own = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  if (own < 0) return;  // there is none
+  own_output = fdopen(own, "w");
+  if (own_output == nullptr) throw std::bad_alloc();
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+}
 
 CLI::Option* add_out_file(CLI::App& command, std::string& out) {
   return add_out(command, out, "File to write; - is standard output")
@@ -45,7 +63,7 @@ void check_output(const std::string& out) {
 
 void write_output(const std::string& out, std::string_view content) {
   if (out != standard_output) return write_file(out, content);
-  if (std::fwrite(content.data(), 1, content.size(), stdout) != content.size() || std::fflush(stdout) != 0) {
+  if (std::fwrite(content.data(), 1, content.size(), output()) != content.size() || std::fflush(output()) != 0) {
     throw FileError("cannot write to standard output");
   }
 }

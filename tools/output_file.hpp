@@ -1,6 +1,7 @@
 // Where a command writes: the option --out.
 #pragma once
 
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,13 @@ namespace calligraphy::tools {
 
 /// In place of a file's name.
 inline constexpr const char* standard_output = "-";
+
+/// The program's own standard output, to which alone its results may be printed.
+std::FILE* output() noexcept;
+
+/// From here on, what anything else prints to standard output goes to standard error: a vendor's library greets there
+/// from its own code, at any time until the program has ended.
+void keep_output_to_ourselves();
 
 /// Adds -o, --out FILE; required unless `out` has a value, the default.
 CLI::Option* add_out_file(CLI::App& command, std::string& out);

@@ -100,15 +100,15 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
       spdlog::warn("force ramped down to zero: {}", to_string(view.servo.fault));
     }
     told = view.servo.fault;
+    for (const std::string& warning : view.warnings) {
+      if (is_new(warning)) spdlog::warn("{}", warning);
+    }
     if (advice.look(view.advice)) is_new(view.advice);
     hints.look(view);
     stop_key_->look();
     return !interrupted();
   };
   LiveResult result = write_with_device(page, *device_, options);
-  for (const std::string& warning : result.warnings) {
-    if (is_new(warning)) spdlog::warn("{}", warning);
-  }
   if (result.dropped > 0) spdlog::warn("{} ticks are missing from the recording", result.dropped);
   statistics_.push_back(result.statistics);
   return std::move(result.recording);

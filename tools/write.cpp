@@ -296,10 +296,11 @@ class WriteRun {
 
   void report() const {
     if (options_.json) {
-      fmt::print("{}", json(summary_));
+      fmt::print(output(), "{}", json(summary_));
     } else {
-      fmt::print("{}{}{}", table(summary_), reductions(summary_.results), remarks(summary_, options_.language));
-      for (const ServoStatistics& statistics : pen_.statistics()) fmt::print("{}", lines(statistics));
+      fmt::print(output(), "{}{}{}", table(summary_), reductions(summary_.results),
+                 remarks(summary_, options_.language));
+      for (const ServoStatistics& statistics : pen_.statistics()) fmt::print(output(), "{}", lines(statistics));
     }
     const auto given_up = [](const Result& r) { return r.score.strokes_completed < r.score.stroke_count; };
     const std::vector<Result>& results = summary_.results;

@@ -48,7 +48,8 @@ ServoLoop::ServoLoop(HapticDevice& device, ForceLaw law, const ServoLoopOptions&
 
 ServoLoop::~ServoLoop() { stop(); }
 
-std::vector<std::string> ServoLoop::start() {
+std::vector<std::string> ServoLoop::start(
+    const std::function<void(const std::vector<std::string>& warnings)>& tell) {
   if (running_) throw ValueError("the servo loop is already running: stop it before starting it again");
   if (emergency_stopped()) {
     throw DeviceError("the servo loop cannot be started after an emergency stop: call clear_emergency_stop() first");
@@ -59,23 +60,30 @@ std::vector<std::string> ServoLoop::start() {
   const bool own = clock_ == nullptr;
   if (own) clock_ = &thread_;
   running_ = true;  // before the first tick, whose force law may query it
-  try {
-    entry_.emplace(&servo_, wait_for_zero);
-    clock_->start([this](double now) { servo_.step(now); });
-  } catch (...) {
-    running_ = false;
-    watchdog_.stop();
-    entry_.reset();
-    throw;
-  }
-  std::vector<std::string> warnings = watchdog_.warnings();
+  told_ = tell == nullptr;
+  std::vector<std::string> warnings;
   const auto add = [&warnings](const std::vector<std::string>& more) {  // without duplicates
     for (const std::string& warning : more) {
       if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
     }
   };
-  if (own) add(thread_.warnings());
-  add(device_.warnings());
+  try {
+    entry_.emplace(&servo_, wait_for_zero);
+    clock_->start([this](double now) {
+      if (told_) servo_.step(now);
+    });
+    add(watchdog_.warnings());
+    if (own) add(thread_.warnings());
+    add(device_.warnings());
+    if (tell) tell(warnings);
+  } catch (...) {
+    running_ = false;
+    clock_->stop();
+    watchdog_.stop();
+    entry_.reset();
+    throw;
+  }
+  told_ = true;
   return warnings;
 }
 

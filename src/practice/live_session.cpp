@@ -77,16 +77,23 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
     view.to_start = newest.to_start;
   };
   const int count = static_cast<int>(page.characters.size());
+  const auto goes_on = [&] {
+    view.advice = device.advice();
+    return !options.watch || options.watch(view);
+  };
+  bool is_wanted = true;
   const double begin = monotonic_seconds();
-  result.warnings = loop.start();
-  while (monotonic_seconds() - begin < options.timeout) {
+  result.warnings = loop.start([&](const std::vector<std::string>& warnings) {
+    view.warnings = warnings;
+    is_wanted = goes_on();
+  });
+  while (is_wanted && monotonic_seconds() - begin < options.timeout) {
     std::this_thread::sleep_for(glance);
     take_over();
     view.servo = loop.status();
-    view.advice = device.advice();
     view.started = in_front.load(std::memory_order_relaxed);
     view.progress = share_written(page, view.newest.character, view.newest.stroke);
-    if (options.watch && !options.watch(view)) break;
+    if (!goes_on()) break;
     if (view.newest.character >= count && view.newest.state != InteractionState::writing) break;
   }
   loop.stop();

@@ -68,6 +68,7 @@ class DeviceWithClock final : public HapticDevice {
   void write(const Eigen::Vector3d& force) noexcept override { inner.write(force); }
   void close() noexcept override {}
   ServoClock* clock() noexcept override { return &own_clock; }
+  std::vector<std::string> warnings() const override { return {"no watchdog"}; }
   WatchedDevice inner;
   SteppedClock own_clock;
 };
@@ -340,6 +341,23 @@ TEST_CASE("a device with its own clock is clocked only by it", "[servo]") {
   loop.stop();  // this clock has stopped: the wait for the ramp-down is bounded, and the force still ends at zero
   CHECK_FALSE(device.own_clock.running());
   CHECK(device.inner.last() == 0.0);
+}
+
+TEST_CASE("warnings are told before the first tick, without which the loop does not start", "[servo]") {
+  DeviceWithClock device;
+  device.own_clock.ticks_at_start = 3;
+  ServoLoop loop(device, push, patient());
+  std::vector<std::string> told;
+  CHECK_THROWS_AS(loop.start([](const std::vector<std::string>&) { throw ValueError("not now"); }), ValueError);
+  CHECK_FALSE(loop.running());
+  CHECK_FALSE(device.own_clock.running());
+  loop.start([&](const std::vector<std::string>& warnings) {
+    told = warnings;
+    CHECK(loop.statistics().ticks == 0);
+  });
+  CHECK(told == device.warnings());
+  device.own_clock.tick(3e-3);
+  CHECK(device.inner.last() == 2.0);
 }
 
 TEST_CASE("a clock that cannot be started leaves the loop stopped", "[servo]") {

@@ -48,6 +48,7 @@ class HeldDevice final : public HapticDevice, public ServoClock {
 
   const Capabilities& capabilities() const noexcept override { return device_.capabilities(); }
   DeviceState read() noexcept override {
+    ++reads;
     DeviceState state = device_.read();
     if (unplugged_after > 0.0 && device_.time() > unplugged_after && device_.time() < unplugged_after + 0.3) {
       state.status = DeviceStatus::disconnected;
@@ -89,6 +90,7 @@ class HeldDevice final : public HapticDevice, public ServoClock {
   double unplugged_after = 0.0;  ///< for 0.3 s; 0: never [s]
   double behind_until = 0.0;     ///< the pen is behind the paper [s]
   double max_force = 0.0;        ///< [N]
+  std::atomic<int> reads = 0;
   Eigen::Vector3d last_force = Eigen::Vector3d::Zero();
 
  private:
@@ -320,8 +322,15 @@ TEST_CASE("a session reports what the system did not permit, and measures its ti
   LiveOptions options = watched(device);
   options.servo.thread.priority = 0;
   options.servo.thread.lock_memory = false;
+  std::vector<std::string> told;
+  options.watch = [&](const LiveView& view) {
+    if (device.reads == 0) told = view.warnings;  // so before any force
+    device.seen();
+    return true;
+  };
   const LiveResult result = write_with_device(page, device, options);
   CHECK(result.warnings == device.warnings());
+  CHECK(told == device.warnings());
   CHECK(std::any_of(result.recording.samples.begin(), result.recording.samples.end(),
                     [](const RecordedSample& sample) { return sample.tick_ns > 0; }));
 }

@@ -203,3 +203,24 @@ class Devices(ProgramTest):
                         ["write", "一", "--device", "openhaptics", "--out", "out", "--timeout", "1"]):
             done = self.run_program(*command, environment=new)
             self.assertEqual(done.stderr.count("needs calibration: put the pen into the inkwell\n"), 1, done.stderr)
+
+    def test_what_the_vendors_library_prints_does_not_mix_with_the_results(self):
+        library = os.environ.get("CALLIGRAPHY_HELD_LIBHD")
+        if not library:
+            self.skipTest("built without the backend for openhaptics")
+        loud = {"CALLIGRAPHY_LIBHD": library, "STAND_IN_BANNER": "welcome"}
+        for command in (["devices", "--json"],
+                        ["write", "一", "--device", "openhaptics", "--out", "out", "--timeout", "1", "--json"]):
+            done = self.run_program(*command, environment=loud)
+            json.loads(done.stdout)
+            self.assertEqual(done.stderr.count("welcome\n"), 2)
+
+    def test_warnings_are_told_before_the_force(self):
+        library = os.environ.get("CALLIGRAPHY_HELD_LIBHD")
+        if not library:
+            self.skipTest("built without the backend for openhaptics")
+        done = self.run_program("write", "十", "--device", "openhaptics", "--out", "out", "--timeout", "6",
+                                environment={"CALLIGRAPHY_LIBHD": library, "STAND_IN_TEXT": "二"})
+        before, hint, _ = done.stderr.partition("too far from the start")
+        self.assertTrue(hint, done.stderr)
+        self.assertIn("Keep a hand at the device's switch", before)

@@ -15,6 +15,11 @@ void refuse_at_the_end() {
   if (program_ends) throw Error("the program is exiting: no servo loop or session can be started");
 }
 
+/// As warnings.warn(). @throws the warning, where a filter makes it an exception
+void warn(const std::string& text) {
+  if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 /// A ServoLoop that keeps device and law alive, stops when the program exits, and releases the GIL while it waits,
 /// because its law may need the GIL to return.
 class Loop {
@@ -57,7 +62,12 @@ class Loop {
     process_ = getpid();
     try {
       const py::gil_scoped_release release;
-      warnings_ = loop_->start();
+      warnings_ = loop_->start([this](const std::vector<std::string>& warnings) {
+        const py::gil_scoped_acquire gil;
+        for (const std::string& warning : warnings) warn(warning);
+        const std::string advice = device_.cast<HapticDevice&>().advice();
+        if (!advice.empty()) warn(advice);
+      });
     } catch (...) {
       changing_ = false;
       at_work_.reset();
@@ -164,9 +174,18 @@ LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOption
   const AtWork at_work({AtWork::User::loop}, &device);
   const LiveSession counted;
   std::exception_ptr raised;
+  bool is_first = true;
+  std::string advice;
   options.watch = [&](const LiveView& view) {
     const py::gil_scoped_acquire gil;
     try {
+      if (std::exchange(is_first, false)) {
+        for (const std::string& warning : view.warnings) warn(warning);
+      }
+      if (advice != view.advice) {
+        advice = view.advice;
+        if (!advice.empty()) warn(advice);
+      }
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (program_ends) return false;
       if (!watch) return true;
@@ -204,7 +223,8 @@ void add_live(py::module_& module) {
       "[N], which needs the GIL in every tick (docs/python.md). A `with` block starts and stops the loop.")
       .def(py::init<HapticDevice&, const std::variant<HapticRenderer*, Law>&, const ServoLoopOptions&>(), "device"_a,
            "law"_a, "options"_a = ServoLoopOptions{})
-      .def("start", &Loop::start)
+      .def("start", &Loop::start,
+           "+ The warnings, and the device's advice, are issued by warnings.warn() before the force.")
       .def("stop", &Loop::stop, "+ From within the law it only begins the ramp-down.")
       .def_property_readonly("running", &Loop::is_running)
       .def_property_readonly("status", &Loop::status)
@@ -231,6 +251,7 @@ void add_live(py::module_& module) {
       .def_readonly("hint", &LiveView::hint)
       .def_property_readonly("to_start", [](const LiveView& self) { return array_of(self.to_start); })
       .def_property_readonly("servo", [](const LiveView& self) { return self.servo; })
+      .def_readonly("warnings", &LiveView::warnings)
       .def_readonly("advice", &LiveView::advice)
       .def_readonly("progress", &LiveView::progress)
       .def_readonly("started", &LiveView::started);
@@ -244,7 +265,8 @@ void add_live(py::module_& module) {
   module.def("with_peak_force", &with_peak_force, "capabilities"_a, "peak_force"_a);
   module.def("write_with_device", &write_live, "page"_a, "device"_a, "options"_a = LiveOptions{},
              "watch"_a = py::none(),
-             "+ `watch` is called with a LiveView about 50 times per second. Ends likewise on Ctrl-C or an "
+             "+ `watch` is called with a LiveView about 50 times per second. The warnings, and the device's advice "
+             "whenever it changes, are issued by warnings.warn() too. Ends likewise on Ctrl-C or an "
              "exception of `watch`, which has the LiveResult as its attribute `result`.");
   // At exit no force may remain, nor threads that would call into a finalised interpreter.
   py::module_::import("atexit").attr("register")(py::cpp_function(&end_all));

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 
 import numpy as np
 import pytest
@@ -581,15 +582,31 @@ def test_a_session_ends_when_watch_returns_false_and_the_force_is_zero(answer):
     assert result.statistics["ticks"] > 0
 
 
-def test_a_display_shows_what_the_device_wants_of_the_person():
-    class Docked(Bench):
-        def advice(self):
-            return "put the pen into the inkwell"
+class Docked(Bench):
+    def advice(self):
+        return "put the pen into the inkwell"
 
+
+def test_a_display_and_a_warning_say_what_the_device_wants_of_the_person():
     seen = []
-    cal.write_with_device(one_page(), Docked(), live_options(timeout=60.0), lambda view: bool(seen.append(view.advice)))
-    assert seen[0] == "put the pen into the inkwell"
+    with pytest.warns(RuntimeWarning, match="put the pen into the inkwell"):
+        cal.write_with_device(
+            one_page(), Docked(), live_options(timeout=60.0), lambda view: bool(seen.append((view.advice, view.warnings)))
+        )
+    assert seen[0] == ("put the pen into the inkwell", [])
     assert Bench().advice() == "" and Bench().warnings == []
+
+
+def test_a_loop_warns_before_its_force_and_does_not_start_when_warnings_are_errors():
+    device = Docked()
+    loop = cal.ServoLoop(device, wall, options())
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(RuntimeWarning, match="put the pen into the inkwell"):
+            loop.start()
+    assert not loop.running and not any(device.forces)
+    with pytest.warns(RuntimeWarning, match="put the pen into the inkwell"), loop:
+        assert loop.running
 
 
 def test_a_display_can_show_why_the_pen_is_not_guided_and_the_way_to_the_start():

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,10 +31,12 @@ class ServoLoop {
   /// Calls stop().
   ~ServoLoop();
 
-  /// Starts with zero force and ramps it up. Returns the privileges that the system refused, each with a remedy.
+  /// Starts with zero force and ramps it up. Returns the privileges that the system refused, each with a remedy, and
+  /// the device's own warnings. `tell`, if given, is called with them before the first tick reads the device, so that
+  /// a person knows them before the force; if it throws, the loop does not start.
   /// @throws DeviceError when the clock cannot be started or after an emergency stop, ValueError when the loop is
   /// already running
-  std::vector<std::string> start();
+  std::vector<std::string> start(const std::function<void(const std::vector<std::string>& warnings)>& tell = nullptr);
 
   /// Ramps the force down to zero, stops the clock and leaves the force at zero. Waits for a force law that has not
   /// returned; the ramp does not wait for it. From within the force law, even before start() has returned, it begins
@@ -54,6 +57,7 @@ class ServoLoop {
   ServoThread watchdog_;
   ServoClock* clock_ = nullptr;  ///< null while stopped
   std::atomic<bool> running_ = false;
+  std::atomic<bool> told_ = false;  ///< the warnings; ticks do nothing before
   std::optional<EmergencyStopEntry> entry_;  ///< while the clock runs
 };
 

@@ -23,6 +23,7 @@ struct LiveView {
   WritingHint hint = WritingHint::none;  ///< why a pen on the paper is not guided in that tick (hint_text())
   Point to_start = Point::Zero();        ///< from its pen tip to the start of the stroke that is due [m, page]
   ServoStatus servo;                     ///< state of the loop and its fault, if any
+  std::vector<std::string> warnings;     ///< as LiveResult::warnings; known before the first tick
   std::string advice;                    ///< what the person has to do with the device (HapticDevice::advice())
   double progress = 0.0;                 ///< share of the page that is written, in [0, 1]
   bool started = false;  ///< the pen has been in front of the paper; until then no force is sent and nothing recorded
@@ -37,7 +38,8 @@ struct LiveOptions {
   ServoLoopOptions servo;                                       ///< of the servo loop
   double peak_force = std::numeric_limits<double>::infinity();  ///< upper bound, besides the device's own [N]
   double timeout = 600.0;                                       ///< the session ends after this time [s]
-  std::function<bool(const LiveView&)> watch = nullptr;  ///< called on the calling thread; false ends the session
+  /// Called on the calling thread, for the first time before the first tick; false ends the session.
+  std::function<bool(const LiveView&)> watch = nullptr;
 };
 
 /// Result of write_with_device().
@@ -45,7 +47,7 @@ struct LiveResult {
   Recording recording;                ///< from the moment when the pen was in front of the paper
   ServoStatistics statistics;         ///< of the servo loop, from its start
   std::uint64_t dropped = 0;          ///< ticks missing from the recording because the calling thread was too late
-  std::vector<std::string> warnings;  ///< what the servo loop could not obtain: priority, locked memory, a core
+  std::vector<std::string> warnings;  ///< as of ServoLoop::start()
 };
 
 /// The capabilities with their forces limited to a peak [N], which may be infinite.

@@ -17,9 +17,10 @@ namespace {
 
 constexpr int max_errors = 64;  // bounds the loop if a runtime never reports that there are no more
 
-/// The vendor's runtime is inherently global to the process: devices opened in several places share its scheduler.
+/// The vendor's runtime is inherently global to the process: devices opened in several places share its scheduler. Its
+/// file stays loaded, because threads of its own may outlive a device.
 std::mutex registry_mutex;
-std::vector<std::pair<void*, std::weak_ptr<Runtime>>> registry;
+std::vector<std::pair<void*, std::shared_ptr<Runtime>>> registry;
 
 /// Guards the user counts of all schedulers.
 std::mutex scheduler_mutex;
@@ -66,7 +67,7 @@ std::string find_all(void* file, Functions& f) {
 std::shared_ptr<Runtime> Runtime::load(const std::string& name) {
   std::string tried;
   for (const std::string& candidate : names_to_try(name)) {
-    void* file = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* const file = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (file == nullptr) {
       const char* const told = dlerror();
       const std::string reason = told != nullptr ? told : "no reason given";
@@ -75,13 +76,8 @@ std::shared_ptr<Runtime> Runtime::load(const std::string& name) {
       continue;
     }
     const std::lock_guard lock(registry_mutex);
-    std::erase_if(registry, [](const auto& entry) { return entry.second.expired(); });
     for (const auto& [known, runtime] : registry) {
-      if (known != file) continue;
-      if (std::shared_ptr<Runtime> shared = runtime.lock()) {
-        dlclose(file);  // the loader counts references; one is enough
-        return shared;
-      }
+      if (known == file) return runtime;
     }
     const auto runtime = std::make_shared<Runtime>(file, candidate);
     registry.emplace_back(file, runtime);
@@ -92,16 +88,13 @@ std::shared_ptr<Runtime> Runtime::load(const std::string& name) {
                     "variable CALLIGRAPHY_LIBHD to the file");
 }
 
-Runtime::Runtime(void* file, std::string library) : file_(file), library_(std::move(library)) {
-  const std::string missing = find_all(file_, functions_);
+Runtime::Runtime(void* file, std::string library) : library_(std::move(library)) {
+  const std::string missing = find_all(file, functions_);
   if (missing.empty()) return;
-  dlclose(file_);
   throw DeviceError(library_ + " lacks " + missing +
                     ": it is not the vendor's HDAPI, or too old. Install OpenHaptics from the vendor, or set the "
                     "environment variable CALLIGRAPHY_LIBHD to another file");
 }
-
-Runtime::~Runtime() { dlclose(file_); }
 
 void Runtime::use_scheduler() {
   const std::lock_guard lock(scheduler_mutex);

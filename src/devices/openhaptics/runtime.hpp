@@ -1,4 +1,4 @@
-// The vendor's runtime, shared by all devices of a process and loaded while one is open.
+// The vendor's runtime, shared by all devices of a process; once loaded, it stays.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,6 @@ class Runtime {
 
   /// Takes the handle returned by dlopen().
   Runtime(void* file, std::string library);
-  ~Runtime();
   Runtime(const Runtime&) = delete;
   Runtime& operator=(const Runtime&) = delete;
 
@@ -32,7 +31,6 @@ class Runtime {
   std::string take_errors(bool (*counts)(ErrorCode) noexcept = [](ErrorCode) noexcept { return true; }) const;
 
  private:
-  void* file_;
   std::string library_;
   Functions functions_ = {};
   int users_ = 0;  ///< of the scheduler

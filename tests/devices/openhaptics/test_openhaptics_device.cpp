@@ -302,6 +302,13 @@ TEST_CASE("a missing runtime is named, with what to install", "[openhaptics]") {
   CHECK(runtime.advice == message);
 }
 
+TEST_CASE("a runtime that was loaded stays, since its own threads may outlive the device", "[openhaptics]") {
+  REQUIRE(openhaptics_runtime(STAND_IN_LIBHD).found);
+  void* const loaded = dlopen(STAND_IN_LIBHD, RTLD_NOW | RTLD_NOLOAD);
+  REQUIRE(loaded != nullptr);
+  dlclose(loaded);
+}
+
 TEST_CASE("every function that a runtime lacks is named", "[openhaptics]") {
   OpenHapticsOptions options;
   options.library = INCOMPLETE_LIBHD;

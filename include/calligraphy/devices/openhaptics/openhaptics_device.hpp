@@ -27,7 +27,8 @@ struct OpenHapticsOptions {
   double (*time)() noexcept = nullptr;                       ///< a monotonic clock [s]; null: the system's
 };
 
-/// The runtime is loaded while a device is open and never linked; this library contains no vendor code.
+/// The runtime is loaded when a device is opened, stays loaded, and is never linked; this library contains no vendor
+/// code.
 ///
 /// The servo loop must be clocked by the vendor's scheduler, clock(), which ServoLoop uses automatically; read() and
 /// write() reach the device only from within its ticks. While no loop runs, read() returns the last sample as `stale`;

@@ -2,10 +2,12 @@
 // of HDAPI and simulated devices inside. Three variants: complete; without some functions (WITHOUT_...); and with
 // STAND_IN_IS_HELD, for programs that know nothing of it: a device held by a hand that writes STAND_IN_TEXT, in real
 // time, its second motor at STAND_IN_TEMPERATURE, which must be calibrated by hand if STAND_IN_IS_UNCALIBRATED is set.
+// With STAND_IN_BANNER, that is printed to standard output when the library is loaded and when the program ends.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <deque>
 #include <functional>
@@ -212,6 +214,11 @@ void give(const Eigen::Vector3d& values, double result[3]) { std::copy(values.be
   device->hand = [writer](const Eigen::Vector3d& tip) { return writer->next(tip, period); };
   const char* const temperature = std::getenv("STAND_IN_TEMPERATURE");
   if (temperature != nullptr) device->motor_temperature = std::atof(temperature);
+  static const char* const banner = std::getenv("STAND_IN_BANNER");
+  if (banner != nullptr) {
+    std::puts(banner);
+    std::atexit([] { std::puts(banner); });
+  }
   if (std::getenv("STAND_IN_IS_UNCALIBRATED") != nullptr) device->calibration = needs_manual_input;
   world().devices.push_back(std::move(device));
   world().real_time = true;
