@@ -12,7 +12,7 @@ ctest --test-dir "$build/programs" --output-on-failure --no-tests=error -R "/the
 "$build/programs/tests/guidance/guidance_judge" pairs --cases 2 > /dev/null
 "$build/programs/tests/judge/stroke_judge" --written 4 --cases 2 > /dev/null
 "$build/programs/tests/stability/guidance_sweep" --cases 2 > /dev/null
-"$build/programs/tests/stability/energy_account" --ticks 100 > /dev/null
+"$build/programs/tests/stability/energy_account" --ticks 100 --draw 2 > /dev/null
 "$build/programs/tests/fuzz/nearest_point_fuzz" --queries 20000 --ticks 20000 > /dev/null
 "$build/programs/tests/soak/session_soak" --ticks 200000 > /dev/null
 
