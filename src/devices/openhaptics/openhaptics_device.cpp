@@ -94,6 +94,7 @@ class OpenHapticsDevice::Implementation {
   Handle device_ = invalid_handle;
   std::atomic<bool> open_ = false;
   double opened_ = 0.0;  ///< [s]
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< of the workspace, in the runtime's coordinates [m]
   DeviceState state_;
   Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();  ///< as the runtime got it [N]
   HeatLimit heat_;
@@ -149,14 +150,12 @@ Capabilities OpenHapticsDevice::Implementation::ask_capabilities() {
   // Larger than needed, in case a model returns more values.
   double box[16] = {};
   hd().hdGetDoublev(usable_workspace, box);
-  Eigen::Vector3d extent;
-  bool has_extent = true;
-  for (int axis = 0; axis < 3; ++axis) {
-    // The largest box centred on the origin; the runtime's need not be.
-    extent[axis] = 2.0 * std::min(-box[axis], box[axis + 3]) * millimetre;
-    has_extent = has_extent && within(extent[axis], 0.01, 3.0);
+  const Eigen::Map<const Eigen::Vector3d> low(box), high(box + 3);
+  const Eigen::Vector3d extent = millimetre * (high - low);
+  if (std::all_of(extent.begin(), extent.end(), [](double length) { return within(length, 0.01, 3.0); })) {
+    result.workspace = extent;
+    centre_ = 0.5 * millimetre * (low + high);
   }
-  if (has_extent) result.workspace = extent;
 
   double number[16] = {};
   hd().hdGetDoublev(max_force, number);
@@ -197,7 +196,7 @@ DeviceState OpenHapticsDevice::Implementation::read() noexcept {
     judgement = graver(judgement, {DeviceStatus::needs_calibration, DeviceFault::uncalibrated});
   }
   state_.time = time;
-  state_.position = millimetre * Eigen::Vector3d(position[0], position[1], position[2]);
+  state_.position = millimetre * Eigen::Vector3d(position[0], position[1], position[2]) - centre_;
   state_.velocity = millimetre * Eigen::Vector3d(velocity[0], velocity[1], velocity[2]);
   state_.force = clock->output_on() ? sent_ : Eigen::Vector3d(Eigen::Vector3d::Zero());
   state_.buttons = static_cast<std::uint32_t>(buttons) & 0xF;

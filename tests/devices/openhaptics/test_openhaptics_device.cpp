@@ -160,7 +160,7 @@ TEST_CASE("capabilities come from the runtime where it provides them, otherwise 
   OpenHapticsDevice device(options);
   const Capabilities& expected = device_profile(row.profile);
   CHECK(device.capabilities().model == row.model);
-  CHECK(device.capabilities().workspace.isApprox(expected.workspace));  // the stub's box is not centred
+  CHECK(device.capabilities().workspace.isApprox(expected.workspace));
   CHECK(device.capabilities().peak_force == expected.peak_force);
   CHECK(device.capabilities().continuous_force == expected.continuous_force);
   CHECK(device.capabilities().usable_stiffness == expected.usable_stiffness);

@@ -52,6 +52,9 @@ constexpr unsigned needs_update = 0x5001;
 constexpr unsigned needs_manual_input = 0x5002;
 constexpr double period = 1e-3;  // [s]
 
+/// Of the workspace in the runtime's coordinates, whose origin need not be there [mm].
+const Eigen::Vector3d centre(5.0, 4.0, -6.0);
+
 /// The tests compare forces with those that were set, and velocities with true ones.
 Capabilities exact(Capabilities profile) {
   profile.force_step = 0.0;
@@ -312,7 +315,8 @@ void hdGetDoublev(unsigned what, double* values) {
   if (what == 0x2050 || what == 0x2051) {
     Device* device = framed();
     if (device == nullptr) return;
-    give(1e3 * (what == 0x2050 ? device->frame.position : device->frame.velocity), values);
+    if (what == 0x2050) give(1e3 * device->frame.position + centre, values);
+    if (what == 0x2051) give(1e3 * device->frame.velocity, values);
     return;
   }
   Device* device = open_device(current);
@@ -322,10 +326,9 @@ void hdGetDoublev(unsigned what, double* values) {
     if (std::isnan(device->motor_temperature)) return report(invalid_enum);
     give({0.0, device->motor_temperature, 0.0}, values);
   } else if (what == 0x2551) {
-    // Not centred: 10 mm more to the right, upwards and towards the user.
     const Eigen::Vector3d half = 0.5e3 * capabilities.workspace;
-    give(-half, values);
-    give(half + Eigen::Vector3d::Constant(10.0), values + 3);
+    give(centre - half, values);
+    give(centre + half, values + 3);
   } else if (what == 0x2603) {
     values[0] = capabilities.peak_force;
   } else if (what == 0x2604) {
