@@ -86,6 +86,7 @@ Recording Pen::replay(const PracticePage& page, const SessionOptions& session) c
 
 Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
   DeviceFault told = DeviceFault::none;
+  bool told_behind = false;
   HintTeller hints;
   AdviceTeller advice;
   LiveOptions options;
@@ -104,6 +105,10 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
       if (is_new(warning)) spdlog::warn("{}", warning);
     }
     if (advice.look(view.advice)) is_new(view.advice);
+    if (view.behind > 0.0 && !std::exchange(told_behind, true)) {
+      spdlog::info("the pen is {:.0f} mm behind the paper: bring it in front, where the writing begins",
+                   1e3 * view.behind);
+    }
     hints.look(view);
     stop_key_->look();
     return !interrupted();

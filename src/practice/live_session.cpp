@@ -53,9 +53,12 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
   if (servo.servo.rate == 0.0) servo.servo.rate = rate;
   servo.servo.timeout = std::max(servo.servo.timeout, min_patience / rate);
   std::atomic<bool> in_front = false;  // an inkwell lies behind the paper: the way out of it is no writing
+  std::atomic<double> behind = 0.0;
   ForceLaw law = [&](const DeviceState& state) noexcept {
     if (!in_front.load(std::memory_order_relaxed)) {
-      if (!(mapping.to_page(state.position).z() > 0.0)) return Eigen::Vector3d(Eigen::Vector3d::Zero());
+      const double depth = -mapping.to_page(state.position).z();
+      behind.store(std::max(depth, 0.0), std::memory_order_relaxed);
+      if (!(depth < 0.0)) return Eigen::Vector3d(Eigen::Vector3d::Zero());
       in_front.store(true, std::memory_order_relaxed);
     }
     const HapticTick& tick = session.update(state);
@@ -92,6 +95,7 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
     take_over();
     view.servo = loop.status();
     view.started = in_front.load(std::memory_order_relaxed);
+    view.behind = behind.load(std::memory_order_relaxed);
     view.progress = share_written(page, view.newest.character, view.newest.stroke);
     if (!goes_on()) break;
     if (view.newest.character >= count && view.newest.state != InteractionState::writing) break;

@@ -231,6 +231,8 @@ TEST_CASE("a pen that comes out of an inkwell behind the paper writes nothing on
   REQUIRE(views.size() > 2);
   CHECK_FALSE(views.front().started);
   CHECK(views.back().started);
+  CHECK(views[1].behind == Approx(0.05));
+  CHECK(views.back().behind == 0.0);
   CHECK(std::is_partitioned(views.begin(), views.end(), [](const LiveView& view) { return !view.started; }));
   const CharacterScore written = score_page(page, result.recording).front();
   CHECK(written.strokes_completed == 2);

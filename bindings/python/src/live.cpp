@@ -254,7 +254,8 @@ void add_live(py::module_& module) {
       .def_readonly("warnings", &LiveView::warnings)
       .def_readonly("advice", &LiveView::advice)
       .def_readonly("progress", &LiveView::progress)
-      .def_readonly("started", &LiveView::started);
+      .def_readonly("started", &LiveView::started)
+      .def_readonly("behind", &LiveView::behind);
   add_types<LiveOptions>(module);
   py::class_<LiveResult>(module, "LiveResult")
       .def_readonly("recording", &LiveResult::recording)

@@ -27,6 +27,7 @@ struct LiveView {
   std::string advice;                    ///< what the person has to do with the device (HapticDevice::advice())
   double progress = 0.0;                 ///< share of the page that is written, in [0, 1]
   bool started = false;  ///< the pen has been in front of the paper; until then no force is sent and nothing recorded
+  double behind = 0.0;   ///< how far the pen is behind the paper, until `started` [m, page]
 };
 
 /// Options of a person writing on a device.
