@@ -59,6 +59,15 @@ std::string labels(const std::u32string& codes) {
   return codes.size() > most ? text + fmt::format(" and {} more", codes.size() - most) : text;
 }
 
+/// What a missing character leads to.
+std::string advice(const std::vector<std::string>& paths) {
+  if (!paths.empty()) return {};
+  std::string all;
+  for (const Character& each : built_in_characters().characters) all += encode_utf8(each.code);
+  return fmt::format("; it has {}, and `calligraphy import` makes a set of thousands for --characters (docs/import.md)",
+                     all);
+}
+
 std::string place_of(const std::vector<std::string>& paths) {
   return paths.empty() ? "the built-in set (see --characters)" : fmt::format("{}", fmt::join(paths, ", "));
 }
@@ -82,13 +91,13 @@ ImportResult import_source(const std::string& source, const ImportOptions& asked
 }
 
 std::u32string present(const std::u32string& text, const std::function<bool(char32_t)>& is_there,
-                       const std::string& place) {
+                       const std::string& place, const std::string& advice) {
   std::u32string found, skipped, missing;
   for (const char32_t code : text) {
     std::u32string& kind = is_there(code) ? found : is_punctuation(code) ? skipped : missing;
     if (&kind == &found || kind.find(code) == kind.npos) kind += code;
   }
-  if (!missing.empty()) throw Error(fmt::format("not in {}: {}", place, labels(missing)));
+  if (!missing.empty()) throw Error(fmt::format("not in {}: {}{}", place, labels(missing), advice));
   if (found.empty() && !skipped.empty()) throw Error(fmt::format("not in {}: {}", place, labels(skipped)));
   if (!skipped.empty()) spdlog::warn("skipped: {}", labels(skipped));
   return found;
@@ -108,7 +117,7 @@ ChosenCharacters open_characters(const std::vector<std::string>& paths, const st
                                  const std::string& order) {
   CharacterSet set = open_sources(paths, text);
   const auto is_there = [&set](char32_t code) { return set.find(code).has_value(); };
-  std::u32string found = present(text, is_there, place_of(paths));
+  std::u32string found = present(text, is_there, place_of(paths), advice(paths));
   ChosenCharacters chosen{std::move(set), std::move(found)};
   require_order(chosen, order, paths);
   return chosen;

@@ -24,9 +24,10 @@ CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32s
 ImportResult import_source(const std::string& source, const ImportOptions& asked);
 
 /// The characters of `text` that are there. Punctuation that is not is skipped, and a warning says so.
-/// @throws Error naming all other characters that are not in `place`, or the punctuation if there is nothing else
+/// @throws Error naming all other characters that are not in `place`, and then `advice`, or the punctuation if there is
+/// nothing else
 std::u32string present(const std::u32string& text, const std::function<bool(char32_t)>& is_there,
-                       const std::string& place);
+                       const std::string& place, const std::string& advice = {});
 
 /// Warns of characters that were asked for by --only and are not in the list.
 void warn_of_missing(const std::u32string& only, const CharacterList& list, const std::string& source);

@@ -38,7 +38,7 @@ bool is_profile(const std::string& name) {
 [[noreturn]] void refuse(const std::string& text, const std::string& reason) {
   throw UsageError(
       fmt::format("--device: {}: {}; expected [simulated:]NAME with NAME one of {}, replay:FILE, phantom[:SERIAL] or "
-                  "openhaptics[:NAME]",
+                  "openhaptics[:NAME]; a device of your own is driven from C++, C or Python (docs/own-backend.md)",
                   text, reason, device_names()));
 }
 

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-  throw FileError(path.string() + ": cannot be written: " + reason);
+  throw FileError(path.string(), "cannot be written: " + reason);
 }
 
 [[noreturn]] void fail_as_too_large(const fs::path& path, std::uintmax_t max_bytes) {
@@ -25,6 +25,14 @@ namespace fs = std::filesystem;
 }
 
 std::string reason_of(int error) { return std::generic_category().message(error); }
+
+[[noreturn]] void fail(const fs::path& path, int error) {
+  throw FileError(path.string(), "cannot be written: " + reason_of(error), error);
+}
+
+[[noreturn]] void fail_to_open(const fs::path& path, int error) {
+  throw FileError(path.string(), "cannot be opened: " + reason_of(error), error);
+}
 
 struct CloseFile {
   void operator()(std::FILE* file) const noexcept { std::fclose(file); }
@@ -34,8 +42,8 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 void write_and_close(File file, const fs::path& path, std::string_view content) {
   errno = 0;
   const bool written = std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
-  if (!written || std::fflush(file.get()) != 0) fail(path, reason_of(errno));
-  if (std::fclose(file.release()) != 0) fail(path, reason_of(errno));
+  if (!written || std::fflush(file.get()) != 0) fail(path, errno);
+  if (std::fclose(file.release()) != 0) fail(path, errno);
 }
 
 /// A new, empty file beside the target, removed unless it is renamed.
@@ -52,7 +60,7 @@ class TemporaryFile {
       file_.reset(std::fopen(path_.string().c_str(), "wbx"));
       if (!file_ && errno != EEXIST) break;
     }
-    if (!file_) fail(target_, reason_of(errno));
+    if (!file_) fail(target_, errno);
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -94,7 +102,7 @@ bool is_stream(const fs::path& path) {
 void write_to_stream(const fs::path& path, std::string_view content) {
   errno = 0;
   File file(std::fopen(path.string().c_str(), "wb"));
-  if (!file) fail(path, reason_of(errno));
+  if (!file) fail(path, errno);
   write_and_close(std::move(file), path, content);
 }
 
@@ -102,7 +110,7 @@ void write_to_stream(const fs::path& path, std::string_view content) {
 void check_can_read(const fs::path& path, std::uintmax_t max_bytes) {
   std::error_code failure;
   if (fs::exists(path, failure) && !fs::is_regular_file(path, failure)) {
-    throw FileError(path.string() + ": is not a regular file");
+    throw FileError(path.string(), "is not a regular file");
   }
   const std::uintmax_t size = fs::file_size(path, failure);
   if (!failure && size > max_bytes) fail_as_too_large(path, max_bytes);
@@ -139,7 +147,7 @@ std::ifstream open_file(const fs::path& path, std::uintmax_t max_bytes) {
   check_can_read(path, max_bytes);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path.string() + ": cannot be opened: " + reason_of(errno));
+  if (!in) fail_to_open(path, errno);
   return in;
 }
 
@@ -148,14 +156,14 @@ std::string read_file(const fs::path& path, std::size_t max_bytes) {
   check_can_read(path, max_bytes);
   errno = 0;
   const File in(std::fopen(path.string().c_str(), "rb"));
-  if (!in) throw FileError(path.string() + ": cannot be opened: " + reason_of(errno));
+  if (!in) fail_to_open(path, errno);
   std::string text;
   constexpr std::size_t chunk = 1 << 16;  // most files are small, so memory grows as needed
   while (!std::feof(in.get()) && text.size() <= max_bytes) {
     const std::size_t before = text.size();
     text.resize(before + chunk);
     text.resize(before + std::fread(text.data() + before, 1, chunk, in.get()));
-    if (std::ferror(in.get())) throw FileError(path.string() + ": cannot be read");
+    if (std::ferror(in.get())) throw FileError(path.string(), "cannot be read", errno);
   }
   if (text.size() > max_bytes) fail_as_too_large(path, max_bytes);  // it has grown meanwhile
   return text;

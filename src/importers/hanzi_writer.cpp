@@ -1,5 +1,6 @@
 #include "hanzi_writer.hpp"
 
+#include <cerrno>
 #include <cmath>
 #include <filesystem>
 
@@ -119,9 +120,9 @@ Character read_hanzi_writer(const std::string& directory, char32_t code) {
   const std::filesystem::path path = std::filesystem::path(directory) / (name + ".json");
   std::error_code failure;
   if (!std::filesystem::is_regular_file(path, failure)) {
-    throw FileError(path.string() +
-                    ": no such file; is this the unpacked npm package hanzi-writer-data, and does it contain " + name +
-                    "?");
+    throw FileError(path.string(),
+                    "no such file; is this the unpacked npm package hanzi-writer-data, and does it contain " + name + "?",
+                    ENOENT);
   }
   std::vector<StrokeInput> strokes;
   for (const BrushStroke& stroke : parse_hanzi_writer(read_file(path, max_file_bytes), path.filename().string())) {

@@ -1,6 +1,7 @@
 #include "source_files.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <system_error>
 
 #include <calligraphy/base/error.hpp>
@@ -94,10 +95,11 @@ SourceFiles read_source(const fs::path& source, const SkipReason& skip_reason, c
     const fs::file_status status = fs::status(source);
     if (fs::is_directory(status)) return Directory(source, limits).read(skip_reason);
     if (fs::is_regular_file(status)) return read_tarball(source, skip_reason, limits);
-    throw FileError(source.string() +
-                    (fs::exists(status) ? ": neither a directory nor a regular file" : ": no such file or directory"));
+    if (!fs::exists(status)) throw FileError(source.string(), "no such file or directory", ENOENT);
+    throw FileError(source.string(), "neither a directory nor a regular file");
   } catch (const fs::filesystem_error& error) {
-    throw FileError(source.string() + ": cannot be read: " + error.code().message() + ": " + error.path1().string());
+    throw FileError(source.string(), "cannot be read: " + error.code().message() + ": " + error.path1().string(),
+                    error.code().value());
   }
 }
 

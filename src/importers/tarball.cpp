@@ -29,7 +29,7 @@ class Unpacker {
  public:
   Unpacker(const std::filesystem::path& path, const SourceLimits& limits)
       : name_(path.string()), limits_(limits), file_(std::fopen(path.c_str(), "rb")) {
-    if (!file_) throw FileError(name_ + ": cannot be opened: " + std::generic_category().message(errno));
+    if (!file_) throw FileError(name_, "cannot be opened: " + std::generic_category().message(errno), errno);
     if (inflateInit2(&stream_, gzip_window) != Z_OK) throw std::bad_alloc();
     read_packed();
     is_packed_ = begins_member();

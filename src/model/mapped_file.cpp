@@ -17,9 +17,12 @@
 namespace calligraphy {
 namespace {
 
-[[noreturn]] void fail(const std::string& path, const std::string& what) { throw FileError(path + ": " + what); }
+[[noreturn]] void fail(const std::string& path, const std::string& what) { throw FileError(path, what); }
 
-std::string reason() { return std::generic_category().message(errno); }
+/// With the reason of the system.
+[[noreturn]] void fail(const std::string& path, const std::string& what, int code) {
+  throw FileError(path, what + ": " + std::generic_category().message(code), code);
+}
 
 struct Descriptor {
   int number;
@@ -33,15 +36,15 @@ struct Descriptor {
 MappedFile::MappedFile(const std::string& path) {
   // Opening a pipe without a writer must not block.
   const Descriptor file{open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
-  if (file.number < 0) fail(path, "cannot be opened: " + reason());
+  if (file.number < 0) fail(path, "cannot be opened", errno);
   struct stat status {};
-  if (fstat(file.number, &status) != 0) fail(path, "cannot be read: " + reason());
+  if (fstat(file.number, &status) != 0) fail(path, "cannot be read", errno);
   if (!S_ISREG(status.st_mode)) fail(path, "is not a regular file");
   const auto size = static_cast<std::uintmax_t>(status.st_size);
   if (size == 0) return;  // an empty file cannot be mapped
   if (size > std::numeric_limits<std::size_t>::max()) fail(path, std::to_string(size) + " bytes are too many to map");
   void* const start = mmap(nullptr, static_cast<std::size_t>(size), PROT_READ, MAP_PRIVATE, file.number, 0);
-  if (start == MAP_FAILED) fail(path, "cannot be mapped: " + reason());
+  if (start == MAP_FAILED) fail(path, "cannot be mapped", errno);
   madvise(start, static_cast<std::size_t>(size), MADV_RANDOM);  // no read-ahead
   bytes_ = {static_cast<const std::byte*>(start), static_cast<std::size_t>(size)};
 }

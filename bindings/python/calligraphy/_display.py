@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable
+import html
+from typing import Any, Callable, Iterable
 
 import numpy as np
 import numpy.typing as npt
@@ -94,6 +95,68 @@ def _show_recording(self: cal.Recording) -> str:
     told = _text(height + 22.0, f"{seconds}, pen-downs: {len(put_down)}, {millimetres}")
     colours = _text(height + 38.0, "green: writing, orange: not")
     return _svg(max(width, 270.0), height + 36.0, _frame(width, height) + group + told + colours)
+
+
+@_method(cal.StrokeRemark, "_repr_html_")
+def _show_remark(self: cal.StrokeRemark) -> str:
+    """What a notebook shows: what is wrong and what to do, as a table."""
+    return html_table([_remark(self)], _REMARK)
+
+
+@_method(cal.MatchResult, "_repr_html_")
+def _show_match(self: cal.MatchResult) -> str:
+    """What a notebook shows: the remarks, as a table."""
+    return html_table(map(_remark, self.remarks), _REMARK) if self.remarks else "no remarks"
+
+
+@_method(cal.CharacterScore, "_repr_html_")
+def _show_score(self: cal.CharacterScore) -> str:
+    """What a notebook shows: the measures, and the remarks, as tables."""
+    rows = [
+        ("character", self.character),
+        ("strokes written", f"{self.strokes_written} of {self.stroke_count}"),
+        ("RMS error [mm]", _number(1e3 * self.rms_error)),
+        ("with what was left out [mm]", _number(1e3 * self.overall_error)),
+        ("written in order [%]", _number(100.0 * self.coverage)),
+        ("time [s]", _number(self.time)),
+        *((name.replace("_", " "), _number(getattr(self, name))) for name in _ELEMENTS),
+    ]
+    return html_table(rows) + _show_match(self.match)
+
+
+@_method(cal.MeanScore, "_repr_html_")
+def _show_mean(self: cal.MeanScore) -> str:
+    """What a notebook shows: the means, as a table."""
+    rows = [
+        ("characters written", f"{self.characters_written} of {self.characters}"),
+        ("strokes written", f"{self.strokes_written} of {self.stroke_count}"),
+        ("RMS error [mm]", _number(1e3 * self.rms_error)),
+        ("with what was left out [mm]", _number(1e3 * self.overall_error)),
+        ("written in order [%]", _number(100.0 * self.coverage)),
+    ]
+    return html_table(rows)
+
+
+_REMARK = ("remark", "stroke", "what to do")
+_ELEMENTS = ("contour", "external_sequence", "internal_sequence", "fidelity")
+
+
+def _remark(remark: cal.StrokeRemark) -> tuple[str, str, str]:
+    return remark.kind.name, str(remark.stroke + 1) if remark.stroke >= 0 else "", remark.reason
+
+
+def _number(value: float) -> str:
+    return f"{value:.2f}" if np.isfinite(value) else "not measured"
+
+
+def html_table(rows: Iterable[Iterable[object]], head: Iterable[str] = ()) -> str:
+    """An HTML table; text is escaped."""
+
+    def row(cells: Iterable[object], kind: str) -> str:
+        return f"<tr>{''.join(f'<{kind}>{html.escape(str(cell))}</{kind}>' for cell in cells)}</tr>"
+
+    names = list(head)
+    return f"<table>{row(names, 'th') if names else ''}{''.join(row(cells, 'td') for cells in rows)}</table>"
 
 
 @_method(cal.Recording, "to_pandas")

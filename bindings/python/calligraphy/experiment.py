@@ -8,6 +8,7 @@ from __future__ import annotations
 import concurrent.futures
 import contextlib
 import csv
+import errno
 import hashlib
 import io
 import itertools
@@ -23,6 +24,7 @@ import numpy as np
 import numpy.typing as npt
 
 import calligraphy as cal
+from calligraphy._display import html_table
 
 __all__ = [
     "Condition",
@@ -127,10 +129,17 @@ class Grid:
         self.layout = cal.workspace_layout(self.device, _PAGES[page](0.0, 0.0, self.motion_scale))
         self.mapping = _PAGES[page](self.layout.width, self.layout.height, self.motion_scale)
 
+    _AXES = ("characters", "writers", "modes", "stiffness", "rate", "method", "tolerance", "seeds")
+
     def __repr__(self) -> str:
-        axes = ("characters", "writers", "modes", "stiffness", "rate", "method", "tolerance", "seeds")
-        lengths = " x ".join(f"{len(getattr(self, axis))} {axis}" for axis in axes)
+        lengths = " x ".join(f"{len(getattr(self, axis))} {axis}" for axis in self._AXES)
         return f"Grid({len(self)} trials: {lengths})"
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the axes and their values, the first twenty of each."""
+        axes = ((axis, list(getattr(self, axis))) for axis in self._AXES)
+        rows = [(axis, len(values), ", ".join(map(str, values[:20])) + ", ..." * (len(values) > 20)) for axis, values in axes]
+        return html_table([*rows, ("trials", len(self), "")], ("axis", "", "values"))
 
     def __len__(self) -> int:
         return len(self.characters) * len(self.writers) * len(self.modes) * len(self.stiffness) * len(self.rate) * len(
@@ -390,7 +399,14 @@ def _writing(path: pathlib.Path) -> Iterator[None]:
         yield
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else str(error)  # pyarrow's own message names the temporary file
-        raise cal.FileError(f"{path}: cannot be written: {reason}") from error
+        raise _file_error(error, path, f"cannot be written: {reason}") from error
+
+
+def _file_error(error: OSError, path: pathlib.Path, what: str) -> cal.FileError:
+    kind = cal.FileNotFound if error.errno == errno.ENOENT else cal.FileError
+    told = kind(f"{path}: {what}")
+    told.errno, told.filename = error.errno, os.fspath(path)
+    return told
 
 
 @contextlib.contextmanager
@@ -430,7 +446,7 @@ class _File:
         except FileNotFoundError:
             text = ""
         except OSError as error:
-            raise cal.FileError(f"{path}: cannot be read: {os.strerror(error.errno or 0)}") from error
+            raise _file_error(error, path, f"cannot be read: {os.strerror(error.errno or 0)}") from error
         if text:
             head, _, rest = text.partition("\n")
             self._compare(head, basis)
@@ -563,13 +579,13 @@ def _run_on(
 
 
 class _Bar:
-    """The progress bar of tqdm on a terminal, if installed; otherwise nothing."""
+    """The progress bar of tqdm on a terminal or in a notebook, if installed; otherwise nothing."""
 
     def __init__(self, total: int, wanted: bool) -> None:
         self._bar: Any = None
         if wanted:
             try:
-                from tqdm import tqdm
+                from tqdm.auto import tqdm
             except ImportError:
                 return
             self._bar = tqdm(total=total, unit="trial", disable=None)

@@ -79,6 +79,17 @@ std::string document_members(const py::object& owner, const std::string& name) {
   return constructor;
 }
 
+/// pydoc shows the bases of a class and what a function is bound to: those of pybind11 say nothing to users.
+void hide_names_of_pybind11(const py::module_& module) {
+  const auto rename = [](const py::object& type, const char* name) {
+    type.attr("__name__") = name;
+    type.attr("__qualname__") = name;
+    type.attr("__module__") = "builtins";
+  };
+  rename(py::reinterpret_borrow<py::object>(py::detail::get_internals().instance_base), "object");
+  rename(py::type::of(module.attr("hint_text").attr("__self__")), "module");
+}
+
 [[noreturn]] void* refuse_unfinished(std::size_t) {
   throw py::type_error("this object is not initialised: its __init__() has not been called");
 }
@@ -93,6 +104,7 @@ const char* text_of(std::string_view owner, std::string_view name) {
 }
 
 void finish(const py::module_& module) {
+  hide_names_of_pybind11(module);
   document_members(module, "");
   for (const auto& item : module.attr("__dict__").cast<py::dict>()) {
     if (PyType_Check(item.second.ptr()) == 0) continue;

@@ -178,3 +178,31 @@ def test_without_pandas_there_is_a_clear_error(monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(ImportError, match=r"Recording.to_pandas\(\) needs pandas: pip install pandas"):
         recorded([], np.zeros((0, 2))).to_pandas()
+
+
+def cells(shown):
+    """The rows of an HTML table."""
+    rows = xml.fromstring(f"<div>{shown._repr_html_()}</div>").iter("tr")
+    return [["".join(cell.itertext()) for cell in row] for row in rows]
+
+
+def test_scores_and_remarks_show_what_is_wrong_as_a_table():
+    page = page_of("十")
+    score = cal.score_page(page, written(page))[0]
+    assert ["strokes written", "2 of 2"] in cells(score) and ["character", "十"] in cells(score)
+    assert score._repr_html_().endswith("no remarks")
+    assert cells(cal.mean_score([score]))[0] == ["characters written", "1 of 1"]
+    across, down = (np.array([[0.1, 0.5], [0.9, 0.5]]), np.array([[0.5, 0.9], [0.5, 0.1]]))
+    match = cal.match_strokes(BUILT_IN["十"], [across[::-1], down])
+    (remark,) = match.remarks
+    assert cells(match) == cells(remark) == [["remark", "stroke", "what to do"], ["direction", "1", remark.reason]]
+    nothing = cal.mean_score([])
+    assert ["RMS error [mm]", "not measured"] in cells(nothing)
+
+
+def test_a_grid_shows_its_axes_as_a_table():
+    from calligraphy import experiment
+
+    table = cells(experiment.Grid("一十", writers={"<b>": cal.WriterSkill.novice()}, seeds=30))
+    assert table[1] == ["characters", "2", "一, 十"] and table[2] == ["writers", "1", "<b>"]
+    assert table[8] == ["seeds", "30", ", ".join(map(str, range(1, 21))) + ", ..."] and table[-1][1] == "120"

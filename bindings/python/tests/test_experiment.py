@@ -361,7 +361,7 @@ def test_tables_are_written_completely(expected, tmp_path):
 
 
 def test_a_progress_bar_shows_every_trial(monkeypatch):
-    tqdm = pytest.importorskip("tqdm")
+    tqdm = pytest.importorskip("tqdm.auto")
     seen = []
 
     class Bar:
@@ -563,7 +563,7 @@ def test_a_failed_write_leaves_no_file_behind(tmp_path, monkeypatch):
 
 
 def test_there_is_no_progress_bar_if_disabled(monkeypatch):
-    tqdm = pytest.importorskip("tqdm")
+    tqdm = pytest.importorskip("tqdm.auto")
     monkeypatch.setattr(tqdm, "tqdm", None)
     experiment.run(grid(seeds=1, modes=["force"]), progress=False)
 

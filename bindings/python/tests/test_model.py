@@ -1,13 +1,16 @@
 """Characters, typical strokes and sets from Python."""
 
 import copy
+import errno
 import os
 import pickle
+import pydoc
 
 import numpy as np
 import pytest
 
 import calligraphy as cal
+from calligraphy import experiment
 
 
 def test_the_example_of_table_3_has_the_published_counts():
@@ -89,6 +92,31 @@ def test_errors_derive_from_one_base_and_from_built_in_exceptions(tmp_path):
         cal.CharacterSet.from_bytes(b"no set", "this one")
     assert isinstance(wrong.value, ValueError) and "this one" in str(wrong.value)
     assert issubclass(cal.DeviceError, OSError) and issubclass(cal.Error, RuntimeError)
+
+
+def test_an_error_of_a_file_names_the_file_and_the_errno_like_that_of_python(tmp_path):
+    path = str(tmp_path / "nowhere")
+    page = cal.lay_out([cal.built_in_characters()["一"]])[0]
+    for act in (
+        lambda: cal.CharacterSet.open(path),
+        lambda: cal.read_recording(path),
+        lambda: cal.import_characters(path),
+        lambda: cal.write_characters(path + "/file", cal.built_in_characters()),
+        lambda: experiment.write(experiment.run(experiment.Grid("一")), path + "/file.csv"),
+    ):
+        with pytest.raises(FileNotFoundError) as missing:
+            act()
+        told = missing.value
+        assert isinstance(told, cal.FileError) and told.errno == errno.ENOENT
+        assert told.filename.startswith(path) and str(told).startswith(told.filename + ": ")
+    with pytest.raises(cal.FileError) as wrong:
+        cal.read_recording(tmp_path)
+    assert not isinstance(wrong.value, FileNotFoundError) and wrong.value.filename == str(tmp_path)
+
+
+def test_help_does_not_begin_with_names_of_the_binding():
+    for shown in (cal.HapticRenderer, cal.hint_text, cal.Character.strokes):
+        assert "pybind11" not in "".join(pydoc.render_doc(shown).splitlines()[:4])
 
 
 READERS = {

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 /// Haptic guidance for writing Chinese characters. Everything public is declared here, except what serves the backend
 /// for Phantom devices alone (calligraphy::phantom).
@@ -24,6 +25,16 @@ class ValueError : public Error {
 class FileError : public Error {
  public:
   using Error::Error;
+  /// "path: what"; `code` is the system's errno, 0 if it gave none.
+  FileError(std::string path, const std::string& what, int code = 0)
+      : Error(path + ": " + what), path_(std::move(path)), code_(code) {}
+
+  const std::string& path() const noexcept { return path_; }  ///< empty if it is not known
+  int code() const noexcept { return code_; }                 ///< errno, such as ENOENT; 0 if it is not known
+
+ private:
+  std::string path_;
+  int code_ = 0;
 };
 
 /// Malformed input; the message names the source, the line if there is one, and the value.
