@@ -42,8 +42,9 @@ std::vector<PracticePage> lay_out(std::span<const Character> characters, const P
   require_within("page layout: em", layout.em, "m", Placement::min_em, Placement::max_em);
   require_not_negative("page layout: gap", layout.gap, "m");
   const double pitch = layout.em + layout.gap;
-  const double columns_that_fit = std::floor((layout.width - layout.gap) / pitch);
-  const double rows_that_fit = std::floor((layout.height - layout.gap) / pitch);
+  constexpr double rounding = 1e-9;  // 1.4 times 0.04 m is a little less than a square of that size and two gaps
+  const double columns_that_fit = std::floor((layout.width - layout.gap) / pitch + rounding);
+  const double rows_that_fit = std::floor((layout.height - layout.gap) / pitch + rounding);
   if (columns_that_fit < 1.0 || rows_that_fit < 1.0) {
     throw ValueError("page layout: a square of " + number_text(layout.em) + " m does not fit on a page of " +
                      number_text(layout.width) + " m x " + number_text(layout.height) + " m");

@@ -1,4 +1,6 @@
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <calligraphy/base/error.hpp>
 
@@ -78,6 +80,25 @@ TEST_CASE("where no square of the usual size fits, one smaller square does", "[p
   CHECK(layout.em < PageLayout().em);
   CHECK(layout.em > 0.02);
   CHECK(lay_out(characters("永"), layout).size() == 1);
+}
+
+TEST_CASE("a page as large as its squares and gaps holds them, and one a millionth smaller does not", "[practice]") {
+  const auto one = characters("永");
+  for (const double em : {0.04, 0.037, 0.1, 1.0 / 3.0}) {
+    for (int tenths = 0; tenths <= 10; ++tenths) {
+      for (std::size_t count = 1; count <= 30; ++count) {
+        CAPTURE(em, tenths, count);
+        const double gap = 0.1 * tenths, all = static_cast<double>(count);
+        const std::vector<Character> text(count, one.front());
+        PageLayout layout{(all + gap * (all + 1.0)) * em, (1.0 + 2.0 * gap) * em, em, gap * em};
+        REQUIRE(lay_out(text, layout).size() == 1);
+        std::swap(layout.width, layout.height);
+        REQUIRE(lay_out(text, layout).size() == 1);
+        layout.height *= 1.0 - 1e-6;
+        if (count > 1) REQUIRE(lay_out(text, layout).size() == 2);
+      }
+    }
+  }
 }
 
 TEST_CASE("an empty text gives no page", "[practice]") { CHECK(lay_out({}).empty()); }
