@@ -291,18 +291,40 @@ TEST_CASE("a force law that crashes in the servo's own thread leaves no force be
   CHECK(shared.remains->force == 0.0);
 }
 
-TEST_CASE("without the emergency stop, and at SIGKILL, the last force stays: that is what devices' watchdogs are for",
+TEST_CASE("without the emergency stop, and where nothing of it can run, the last force stays: for devices' watchdogs",
           "[emergency]") {
   const SharedRemains shared;
   CHECK(exited(status_of_child([&] { press<SharedDevice>(*shared.remains), std::_Exit(0); }), 0));
   CHECK(shared.remains->force == 3.0);
-  const int status = status_of_child([&] {
-    install_emergency_stop();
-    press<StoppableDevice>(*shared.remains);
-    kill(getpid(), SIGKILL);
-  });
-  CHECK(killed(status, SIGKILL));
-  CHECK(shared.remains->force == 3.0);
+  const auto overflow_in_thread = [](bool has_stack_for_signals) {
+    std::thread([=] {
+      static std::array<std::byte, 1 << 15> memory;
+      stack_t stack = {};
+      stack.ss_sp = memory.data();
+      stack.ss_size = memory.size();
+      if (has_stack_for_signals) sigaltstack(&stack, nullptr);
+      overflow_stack(0);
+    }).join();
+  };
+  struct Unseen {
+    const char* name;
+    std::function<void()> end;
+    double force;
+  };
+  for (const Unseen& unseen :
+       {Unseen{"SIGKILL", [] { raise(SIGKILL); }, 3.0}, Unseen{"_exit()", [] { _exit(0); }, 3.0},
+        Unseen{"execve()", [] { execl("/bin/true", "true", nullptr); }, 3.0},
+        Unseen{"a stack overflow of a thread", [&] { overflow_in_thread(false); }, 3.0},
+        Unseen{"a stack overflow of a thread that has called sigaltstack()", [&] { overflow_in_thread(true); }, 0.0}}) {
+    CAPTURE(unseen.name);
+    const int status = status_of_child([&] {
+      install_emergency_stop();
+      press<SharedDevice>(*shared.remains);
+      unseen.end();
+    });
+    CHECK_FALSE(exited(status, 99));
+    CHECK(shared.remains->force == unseen.force);
+  }
 }
 
 TEST_CASE("handlers installed before are called after the stop, with what they would have been told", "[emergency]") {

@@ -17,8 +17,8 @@ class HapticDevice;
 /// Call it once, at the start of main() and after the program has installed its own handlers; further calls do nothing.
 /// A handler that is installed later replaces it and should call emergency_stop() itself. One that was installed with
 /// SA_RESETHAND is called once, as it asked: the second such signal ends the program by its default action, with the
-/// force on. Nothing can run at SIGKILL, SIGSTOP, _exit() or a power failure: only the device's own watchdog remains
-/// (HapticDevice::warnings()).
+/// force on. Nothing can run at SIGKILL, SIGSTOP, _exit(), execve(), a power failure, or the stack overflow of a thread
+/// of your own that has not called sigaltstack(): only the device's own watchdog remains (HapticDevice::warnings()).
 void install_emergency_stop();
 
 /// Takes the force at once, without a ramp, from every device that has an entry (the built-in backends; your own by one
