@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
@@ -121,27 +123,37 @@ int count_peaks(const std::vector<double>& speed, double prominence) {
   return peaks;
 }
 
-double magnitude_at(const std::vector<double>& values, double angle) {
-  const double cosine = std::cos(angle), sine = std::sin(angle);
-  double real = 0.0, imaginary = 0.0;  // of the polynomial with these coefficients at exp(i angle), by Horner's rule
-  for (std::size_t i = values.size(); i-- > 0;) {
-    const double turned = real * cosine - imaginary * sine + values[i];
-    imaginary = real * sine + imaginary * cosine;
-    real = turned;
+/// Discrete Fourier transform in place, by the algorithm of Cooley and Tukey (1965); the size is a power of two.
+void transform(std::vector<std::complex<double>>& values) {
+  const std::size_t size = values.size();
+  for (std::size_t i = 1, reversed = 0; i < size; ++i) {  // the digits of the index in reverse order
+    std::size_t digit = size / 2;
+    for (; (reversed & digit) != 0; digit /= 2) reversed ^= digit;
+    reversed ^= digit;
+    if (i < reversed) std::swap(values[i], values[reversed]);
   }
-  return std::hypot(real, imaginary);
+  for (std::size_t half = 1; half < size; half *= 2) {
+    for (std::size_t k = 0; k < half; ++k) {
+      const auto turn = std::polar(1.0, -std::numbers::pi * static_cast<double>(k) / static_cast<double>(half));
+      for (std::size_t i = k; i < size; i += 2 * half) {
+        const std::complex<double> odd = turn * values[i + half];
+        values[i + half] = values[i] - odd;
+        values[i] += odd;
+      }
+    }
+  }
 }
 
 double spectral_arc_length(const std::vector<double>& speed, double step) {
   const std::size_t padded = std::bit_ceil(speed.size()) << sparc_pad_level;
-  const auto length = static_cast<double>(padded);
-  const double frequency_step = 1.0 / (step * length);
-  const double at_zero = magnitude_at(speed, 0.0);
+  const double frequency_step = 1.0 / (step * static_cast<double>(padded));
+  std::vector<std::complex<double>> spectrum(speed.begin(), speed.end());
+  spectrum.resize(padded);
+  transform(spectrum);
   std::vector<double> magnitudes;
   std::size_t last = 0;
   for (std::size_t k = 0; k <= padded / 2 && static_cast<double>(k) * frequency_step <= band_limit; ++k) {
-    const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / length;
-    magnitudes.push_back(magnitude_at(speed, angle) / at_zero);
+    magnitudes.push_back(std::abs(spectrum[k]) / std::abs(spectrum[0]));
     if (magnitudes.back() >= sparc_threshold) last = k;
   }
   double arc = 0.0;
