@@ -11,6 +11,8 @@
 
 #include <calligraphy/base/error.hpp>
 
+#include "open_stream.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -101,8 +103,11 @@ bool is_stream(const fs::path& path) {
 
 void write_to_stream(const fs::path& path, std::string_view content) {
   errno = 0;
-  File file(std::fopen(path.string().c_str(), "wb"));
-  if (!file) fail(path, errno);
+  File file(open_stream(path.string()));
+  const int error = errno;
+  std::error_code ignored;
+  if (!file && error == ENXIO && fs::is_fifo(path, ignored)) fail(path, "no program reads this pipe");
+  if (!file) fail(path, error);
   write_and_close(std::move(file), path, content);
 }
 

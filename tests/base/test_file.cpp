@@ -129,6 +129,7 @@ TEST_CASE("a pipe and a character device are written to and stay what they are",
   write_file(pipe, "text");
   reader.join();
   CHECK(received == "text");
+  CHECK(error_of(pipe, "text") == pipe.string() + ": cannot be written: no program reads this pipe");
   CHECK(fs::is_fifo(pipe));
 
   int ends[2] = {};

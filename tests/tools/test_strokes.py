@@ -32,6 +32,8 @@ class Strokes(ProgramTest):
         self.assertTrue(os.stat("/dev/null").st_rdev)
         self.assertEqual(self.run_program("strokes", "-o", "/dev/stdout").stdout, picture)
         self.assertEqual(self.files(), [])
+        os.mkfifo(self.directory / "pipe")
+        self.assert_refused(1, ["strokes", "-o", "pipe"], "pipe", "no program reads")
         (self.directory / "directory").mkdir()
         self.assert_refused(1, ["strokes", "-o", "directory"], "directory", "not a regular file")
 

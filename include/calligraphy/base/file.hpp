@@ -12,8 +12,8 @@
 namespace calligraphy {
 
 /// Writes atomically: to a temporary file beside `path`, which is then renamed. A pipe or a character device, such as
-/// /dev/null, is written to directly. @throws FileError naming the path and the reason; an existing file is then left
-/// unchanged
+/// /dev/null, is written to directly; a pipe's reader must be there within a second. @throws FileError naming the path
+/// and the reason; an existing file is then left unchanged
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// Checks before long work that write_file() can succeed: creates and removes a temporary file beside `path`. A pipe or
