@@ -67,7 +67,8 @@ std::vector<StrokeStart> stroke_starts(const PlacedCharacter& placed, const Stro
     const double em = placed.placement.em;
     Point way = first_stretch(elements, std::min(tolerances.first_stretch * em, max_stretch_share * length));
     const Point longer = first_stretch(elements, std::min(longer_stretch * em, longer_stretch_share * length));
-    if (way.dot(longer) < contradiction_cosine * way.norm() * longer.norm()) way = longer;
+    start.bends = way.dot(longer) < contradiction_cosine * way.norm() * longer.norm();
+    if (start.bends) way = longer;
     start.stretch = way.norm();
     start.direction = start.stretch > 0.0 ? Point(way / start.stretch) : elements.front().tangent(0.0);
     starts.push_back(start);

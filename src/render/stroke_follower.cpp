@@ -120,7 +120,7 @@ void StrokeFollower::update(const Point& tip, const Point& hand) noexcept {
 
 void StrokeFollower::leave() noexcept { look(tip_, (tip_ - seen_).norm()); }
 
-/// Of lost samples only the ends are known.
+/// Of the first stretch, unless it bends, and of lost samples only the ends are known.
 [[gnu::noinline]] void StrokeFollower::look_along() noexcept {
   const Point from = seen_;
   const double moved = (tip_ - from).norm();

@@ -134,14 +134,14 @@ void StrokeSequencer::set_out(const Point& tip) noexcept {
   due_->follower.begin(tip, capture_.misplaced());
 }
 
-/// The stroke is followed from where the pen sets out: the first stretch may bend, so that its ends do not say how it
-/// was written.
 bool StrokeSequencer::begins(const PenState& pen) noexcept {
   const Point tip = pen.tip.head<2>(), from = capture_.begin();
   const auto due = static_cast<std::size_t>(writer_.stroke);
   const CaptureVerdict verdict = capture_.update(tip, character_->starts, due, writer_.em, tolerances_);
-  if (capture_.begin() != from) due_->follower.begin(capture_.begin(), capture_.misplaced());
-  if (pen.on_paper) due_->follower.update(tip, hand(pen));
+  if (character_->starts[due].bends) {  // its ends do not say how it was written
+    if (capture_.begin() != from) due_->follower.begin(capture_.begin(), capture_.misplaced());
+    if (pen.on_paper) due_->follower.update(tip, hand(pen));
+  }
   if (verdict == CaptureVerdict::begun) return true;
   if (verdict == CaptureVerdict::another_stroke) writer_.rests = false;
   if (writer_.rests) writer_.contact = due_->geometry.update(tip, stroke_);
@@ -167,6 +167,8 @@ bool StrokeSequencer::is_finished(bool leaves) const noexcept {
   writer_.events |= TickEvent::stroke_started;
   writer_.rests = false;
   due_->geometry.begin(capture_.begin());
+  const bool is_followed = character_->starts[static_cast<std::size_t>(writer_.stroke)].bends;
+  if (!is_followed) due_->follower.begin(capture_.begin(), capture_.misplaced());
   write_on(pen);
 }
 

@@ -208,10 +208,10 @@ TEST_CASE("a stroke that is drawn exactly is finished with every preset, whichev
        {StrokeTolerances::lenient(), StrokeTolerances::normal(), StrokeTolerances::strict()}) {
     RendererOptions options;
     options.tolerances = tolerances;
-    for (const double entry : {0.05, 0.1, 0.15}) {
-      for (double angle = -2.4; angle < 2.5; angle += 0.2) {
+    for (const double entry : {0.03, 0.05, 0.07, 0.09, 0.11}) {
+      for (double angle = -2.5; angle < 2.6; angle += 0.1) {
         const Point start(0.3, 0.5), way(std::cos(angle), std::sin(angle));
-        const StrokeInput input{4, {start, start + 3.0 * entry * way, {0.55, 0.5}, {0.8, 0.4}}};
+        const StrokeInput input{4, {start, start + 3.0 * entry * way, {0.5, 0.5}, {0.75, 0.4}}};
         StrokeSequencer sequencer({{make_character(U'\u4E3F', std::span(&input, 1)), {{0.0, 0.0}, 0.04}}}, options,
                                   test_device(), {});
         for (const Point& tip : way_along(sequencer, 0)) sequencer.update(pen_at(tip, true));

@@ -15,6 +15,7 @@ struct StrokeStart {
   Point point = Point::Zero();
   Point direction = Point::Zero();  ///< unit vector; zero for a stroke without length
   double stretch = 0.0;             ///< length over which the direction is judged [m]
+  bool bends = false;               ///< over a longer one than usual, within which the stroke turns
 };
 
 /// Those of every stroke of a character.
