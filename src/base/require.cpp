@@ -40,9 +40,12 @@ void require_not_negative(std::string_view name, double value, std::string_view 
   require(std::isfinite(value) && value >= 0.0, name, value, unit, "finite and at least 0");
 }
 
-void require_within(std::string_view name, double value, std::string_view unit, double least, double most) {
+void require_within(std::string_view name, double value, std::string_view unit, double least, double most,
+                    std::string_view reason) {
   if (value >= least && value <= most) return;
-  require(false, name, value, unit, "from " + number_text(least) + " to " + number_text(most));
+  std::string domain = "from " + number_text(least) + " to " + number_text(most);
+  if (!reason.empty()) domain.append(": ").append(reason);
+  require(false, name, value, unit, domain);
 }
 
 }  // namespace calligraphy

@@ -39,6 +39,8 @@ void require(bool in_domain, std::string_view name, double value, std::string_vi
 /// The domains of most numbers, all of them finite. @throws ValueError as above
 void require_above_zero(std::string_view name, double value, std::string_view unit, double most = unlimited);
 void require_not_negative(std::string_view name, double value, std::string_view unit);
-void require_within(std::string_view name, double value, std::string_view unit, double least, double most);
+/// With a `reason`, that follows the domain.
+void require_within(std::string_view name, double value, std::string_view unit, double least, double most,
+                    std::string_view reason = {});
 
 }  // namespace calligraphy

@@ -64,7 +64,8 @@ void validate(const Capabilities& capabilities) {
   require(peak == 0.0 || capabilities.force_step <= peak, device + "force step", capabilities.force_step, "N",
           "at most the peak force: a larger one would round every force to zero");
   require_not_negative(device + "encoder step", capabilities.encoder_step, "m");
-  require_above_zero(device + "velocity cut-off", capabilities.velocity_cutoff, "Hz");
+  require_within(device + "velocity cut-off", capabilities.velocity_cutoff, "Hz", 1.0, 1e6,
+                 "a slower filter has no velocity of a stroke");
   require_not_negative(device + "update rate", capabilities.update_rate, "Hz");
   require_not_negative(device + "apparent mass", capabilities.apparent_mass, "kg");
   require_not_negative(device + "viscous friction", capabilities.viscous_friction, "N s/m");

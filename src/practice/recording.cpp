@@ -28,7 +28,8 @@ constexpr std::size_t chunk = 1 << 16;                ///< bytes given to the st
 
 constexpr std::array states = {InteractionState::separation, InteractionState::adjusting, InteractionState::calibration,
                                InteractionState::writing};
-constexpr std::array statuses = {TickStatus::ok, TickStatus::stale, TickStatus::bad_sample, TickStatus::device_fault};
+constexpr std::array statuses = {TickStatus::ok, TickStatus::stale, TickStatus::bad_sample, TickStatus::device_fault,
+                                 TickStatus::bad_clock};
 constexpr int all_events = 2 * static_cast<int>(TickEvent::page_finished) - 1;
 
 std::string header() {
@@ -97,7 +98,7 @@ class RecordingParser : private LineReader {
         states, [](auto each) { return to_string(each); }, "SS, AS, CS or WS");
     sample.events = static_cast<TickEvent>(next_integer(all_events));
     sample.status = next_of(
-        statuses, [](auto each) { return to_string(each); }, "ok, stale, bad_sample or device_fault");
+        statuses, [](auto each) { return to_string(each); }, "ok, stale, bad_sample, device_fault or bad_clock");
     sample.character = next_integer(std::numeric_limits<int>::max());
     sample.stroke = next_integer(std::numeric_limits<int>::max());
     sample.tick_ns = next_number<float>();

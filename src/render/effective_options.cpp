@@ -4,13 +4,15 @@
 #include <calligraphy/render/detail/prepared_page.hpp>
 
 #include "base/require.hpp"
+#include "exact_pen.hpp"
 
 namespace calligraphy {
 
 double servo_rate(const RendererOptions& options, const Capabilities& capabilities) {
   const bool is_asked_for = options.servo_rate != 0.0;
   const double rate = is_asked_for ? options.servo_rate : capabilities.update_rate;
-  require_above_zero(is_asked_for ? "servo_rate" : "update_rate of the device", rate, "Hz", 1e6);
+  require_within(is_asked_for ? "servo_rate" : "update_rate of the device", rate, "Hz", 50.0, 1e6,
+                 "in a slower loop no spring that a hand would feel is stable");
   return rate;
 }
 
@@ -25,6 +27,7 @@ EffectiveOptions effective_options(const RendererOptions& options, const std::ve
   if (clips) effective.clipped = clip_stiffness(effective.options, capabilities, mapping.scale);
   validate(effective.options, capabilities, mapping.scale);
   require_translations(capabilities, "the renderer");
+  require_exact_pen_taken(page, effective.options, capabilities, mapping);
 
   // Where strokes attract more than others, guidance is limited there, not on the whole page.
   effective.guidance_limit = max_guidance_stiffness(effective.options, capabilities, mapping.scale);

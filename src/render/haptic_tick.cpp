@@ -30,6 +30,8 @@ const char* to_string(TickStatus status) noexcept {
       return "bad_sample";
     case TickStatus::device_fault:
       return "device_fault";
+    case TickStatus::bad_clock:
+      return "bad_clock";
   }
   return "";
 }

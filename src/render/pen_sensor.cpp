@@ -20,6 +20,10 @@ constexpr double lift_height = 0.0005;
 /// A pause is at least this long; what is shorter is jitter [ticks].
 constexpr double min_pause = 1.75;
 
+/// A clock of milliseconds leaps by 1000 ticks from sample to sample; no loop pauses for so many, so often.
+constexpr double min_leap = 300.0;
+constexpr int max_leaps = 50;
+
 /// False for NaN too.
 bool is_on_page(const Eigen::Vector3d& position) noexcept {
   constexpr double most = PenSensor::max_coordinate;
@@ -44,6 +48,7 @@ void PenSensor::restart() noexcept {
   has_sample_ = false;
   unseen_ = 0;
   above_for_ = 0.0;
+  leaps_ = 0;
   rejected_.reset();
 }
 
@@ -79,6 +84,7 @@ TickStatus PenSensor::accept(const DeviceState& sample) noexcept {
   if (sample.status == DeviceStatus::stale) return TickStatus::stale;
   const Eigen::Vector3d position = mapping_.to_page(sample.position);
   if (!is_on_page(position) || !std::isfinite(sample.time)) return TickStatus::bad_sample;
+  if (is_leaping(sample.time)) return TickStatus::bad_clock;
   // A clock that stands or runs backwards must not turn a small motion into a fast one.
   const double passed = sample.time - time_;
   double elapsed = passed > period_ ? passed : period_;
@@ -98,6 +104,13 @@ TickStatus PenSensor::accept(const DeviceState& sample) noexcept {
   has_sample_ = true;
   time_ = sample.time;
   return TickStatus::ok;
+}
+
+bool PenSensor::is_leaping(double time) noexcept {
+  const bool leaps = time - clock_ > min_leap * period_;  // false for NaN
+  clock_ = time;
+  leaps_ = leaps ? std::min(leaps_ + 1, max_leaps) : 0;
+  return leaps_ == max_leaps;
 }
 
 /// A pen cannot jump: a single sample far away is rejected. A second one near the first is accepted, because then the

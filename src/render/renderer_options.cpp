@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
@@ -15,8 +16,12 @@
 namespace calligraphy {
 namespace {
 
-/// Keeps every force step finite [N/s].
-constexpr double max_force_rate = 1e12;
+/// Slower, a force that a fault releases would stay for longer than the hand takes to notice; the other one keeps every
+/// force step finite [N/s].
+constexpr double min_force_rate = 10.0, max_force_rate = 1e12;
+
+/// More than any device has [N].
+constexpr double max_force = 1e6;
 
 /// Limits of guidance for large deviations: hardly softer than the linear law where that is at its strongest.
 constexpr double max_saturated_guidance = 3.0;  ///< [N]
@@ -26,7 +31,9 @@ constexpr double guidance_peak_share = 0.75;    ///< of the peak force
 constexpr double paper_friction_coefficient = 0.15;
 
 void require_force_rate(const char* name, double rate) {
-  if (rate != std::numeric_limits<double>::infinity()) require_above_zero(name, rate, "N/s", max_force_rate);
+  if (rate == std::numeric_limits<double>::infinity()) return;
+  require_within(name, rate, "N/s", min_force_rate, max_force_rate,
+                 "by a slower one a force neither sets in with a stroke nor is gone soon after a fault");
 }
 
 /// On a page of motion scale K_S, what the hand feels as it does these options at scale 1.
@@ -94,44 +101,55 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   RendererOptions stable = options;
   const std::vector<std::string> too_stiff = clip_stiffness(stable, capabilities, scale);
   if (!too_stiff.empty()) throw ValueError(too_stiff.front());
-  require_not_negative("paper.onset", options.paper.onset, "m");
-  require_not_negative("guidance.fade_in", options.guidance.fade_in, "s");
-  require_not_negative("guidance.fade_out", options.guidance.fade_out, "s");
-  require_not_negative("guidance.wrong_way_limit", options.guidance.wrong_way_limit, "N");
-  require_not_negative("guidance.wrong_way_slack", options.guidance.wrong_way_slack, "em");
-  require_above_zero("guidance.limit", options.guidance.limit, "N");
+  require_within("paper.onset", options.paper.onset, "m", 0.0, 0.01, "a hand presses no deeper");
+  for (const auto& [name, time] : {std::pair{"guidance.fade_in", options.guidance.fade_in},
+                                   std::pair{"guidance.fade_out", options.guidance.fade_out}}) {
+    require_within(name, time, "s", 0.0, 5.0, "strokes are shorter");
+  }
+  require_within("guidance.wrong_way_limit", options.guidance.wrong_way_limit, "N", 0.0, max_force);
+  require_within("guidance.wrong_way_slack", options.guidance.wrong_way_slack, "em", 0.0, 1.0,
+                 "nobody goes back farther");
+  require_within("guidance.limit", options.guidance.limit, "N", 1e-3, max_force, "nobody feels less");
   require_within("guidance.assist.retention", options.guidance.assist.retention, "", 0.0, 1.0);
-  require_above_zero("guidance.assist.full_assistance_error", options.guidance.assist.full_assistance_error, "em");
+  require_within("guidance.assist.full_assistance_error", options.guidance.assist.full_assistance_error, "em", 1e-5, 1.0,
+                 "nobody writes so exactly, or is so far off");
   require_within("guidance.assist.min_assistance", options.guidance.assist.min_assistance, "", 0.0, 1.0);
   require_within("paper.friction.damping", options.paper.friction.damping, "N s/m", 0.0, max_damping);
   require_within("paper.friction.coefficient", options.paper.friction.coefficient, "", 0.0, 10.0);
-  require_above_zero("paper.friction.stiffness", options.paper.friction.stiffness, "N/m", max_stiffness);
+  require_within("paper.friction.stiffness", options.paper.friction.stiffness, "N/m", 1e-3, max_stiffness,
+                 "a softer spring slides by as much as a stroke before it rubs");
   try {
     validate(options.nearest);
   } catch (const ValueError& error) {
     throw ValueError(std::string("nearest.") + error.what());
   }
-  require_above_zero("guidance.space.radius", options.guidance.space.radius, "em");
-  require_above_zero("guidance.space.fade_width", options.guidance.space.fade_width, "em",
-                     options.guidance.space.radius);
+  require_within("guidance.space.radius", options.guidance.space.radius, "em", 0.01, 10.0,
+                 "beside a narrower tube every pen is lost");
+  require_within("guidance.space.fade_width", options.guidance.space.fade_width, "em", 0.001, options.guidance.space.radius,
+                 "a tube with a sharper edge throws the pen, and a wider edge has no middle");
   validate(options.tolerances);
-  require_not_negative("contact.box_margin", options.contact.box_margin, "em");
-  require_not_negative("contact.lift_time", options.contact.lift_time, "s");
-  require_not_negative("contact.lift_clearance", options.contact.lift_clearance, "m");
+  require_within("contact.box_margin", options.contact.box_margin, "em", 0.0, 10.0, "a page has room for no more");
+  require_within("contact.lift_time", options.contact.lift_time, "s", 0.0, 1.0, "a pen that bounces is back sooner");
+  require_within("contact.lift_clearance", options.contact.lift_clearance, "m", 0.0, 0.05,
+                 "between strokes a pen is lifted no farther");
   require_force_rate("limits.in_plane_rate", options.limits.in_plane_rate);
   require_force_rate("limits.normal_rate", options.limits.normal_rate);
   if (!(options.energy.budget == std::numeric_limits<double>::infinity())) {
     require_not_negative("energy.budget", options.energy.budget, "J");
     require_above_zero("apparent_mass of the device, for energy.budget", capabilities.apparent_mass, "kg");
   }
-  require_not_negative("energy.max_gap", options.energy.max_gap, "s");
-  require_not_negative("limits.thermal_time_constant", options.limits.thermal_time_constant, "s");
+  // A hand of 2 m/s gains 0.2 J from 1 N in 0.1 s.
+  require_within("energy.max_gap", options.energy.max_gap, "s", 0.0, 0.1,
+                 "over a longer one a budget permits hardly any force");
+  require_within("limits.thermal_time_constant", options.limits.thermal_time_constant, "s", 0.0, 3600.0,
+                 "motors are warm sooner");
   if (options.limits.thermal_time_constant > 0.0) {
     require_above_zero("continuous_force of the device, for limits.thermal_time_constant",
                        capabilities.continuous_force, "N");
   }
-  require_above_zero("grip_stiffness", options.grip_stiffness, "N/m");
-  require_above_zero("limits.max_speed", options.limits.max_speed, "m/s");
+  require_within("grip_stiffness", options.grip_stiffness, "N/m", 10.0, 1e5, "no hand is softer, or firmer");
+  require_within("limits.max_speed", options.limits.max_speed, "m/s", 0.5, 100.0,
+                 "a hand is as fast, and no device is faster");
 }
 
 }  // namespace calligraphy

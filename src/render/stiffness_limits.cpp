@@ -132,7 +132,8 @@ class Limits {
 }  // namespace
 
 std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities, double scale) {
-  require_above_zero("velocity_cutoff", options.velocity_cutoff, "Hz", 1e6);
+  require_within("velocity_cutoff", options.velocity_cutoff, "Hz", 5.0, 1e6,
+                 "a slower filter knows the velocity too late to damp a spring that a hand would feel");
   require_above_zero("scale", scale, "");
   const Limits limits(options, capabilities, scale);
   std::vector<std::string> clipped;

@@ -471,6 +471,7 @@ TEST_CASE("the names of C are the values of C++") {
   CHECK(CALLIGRAPHY_TICK_STALE == static_cast<int>(TickStatus::stale));
   CHECK(CALLIGRAPHY_TICK_BAD_SAMPLE == static_cast<int>(TickStatus::bad_sample));
   CHECK(CALLIGRAPHY_TICK_DEVICE_FAULT == static_cast<int>(TickStatus::device_fault));
+  CHECK(CALLIGRAPHY_TICK_BAD_CLOCK == static_cast<int>(TickStatus::bad_clock));
   CHECK(CALLIGRAPHY_HINT_TOO_FAR == static_cast<int>(WritingHint::too_far));
   CHECK(CALLIGRAPHY_HINT_AT_END == static_cast<int>(WritingHint::at_end));
   CHECK(CALLIGRAPHY_HINT_IN_MIDDLE == static_cast<int>(WritingHint::in_middle));

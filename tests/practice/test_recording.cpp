@@ -54,7 +54,7 @@ Recording hard_recording() {
     sample.force = {next(7), next(8), next(9)};
     sample.state = static_cast<InteractionState>(i % 4);
     sample.events = static_cast<TickEvent>(i == 8 ? 255 : 1 << (i % 8));
-    sample.status = static_cast<TickStatus>(i / 2 % 4);
+    sample.status = static_cast<TickStatus>(i / 2 % 5);
     sample.character = i == 0 ? std::numeric_limits<int>::max() : static_cast<int>(i);
     sample.stroke = static_cast<int>(3 * i);
     sample.tick_ns = i == 1 ? std::numeric_limits<float>::denorm_min() : 0.1F * static_cast<float>(i);
@@ -199,7 +199,7 @@ TEST_CASE("malformed CSV is an error naming the line and the value", "[practice]
   CHECK(second("WS", "ws") == "trace.csv:4: state is 'ws': expected SS, AS, CS or WS");
   CHECK(second("WS,4", "WS,256") == "trace.csv:4: events is '256': expected 0 to 255");
   CHECK(second("WS,4", "WS,1.5") == "trace.csv:4: events is '1.5': expected a number");
-  CHECK(second("ok", "fine") == "trace.csv:4: status is 'fine': expected ok, stale, bad_sample or device_fault");
+  CHECK(second("ok", "fine") == "trace.csv:4: status is 'fine': expected ok, stale, bad_sample, device_fault or bad_clock");
   CHECK(second("ok,0", "ok,-1") == "trace.csv:4: character is '-1': expected 0 to 2147483647");
   CHECK(second("ok,0,1", "ok,0,2147483648") == "trace.csv:4: stroke is '2147483648': out of range");
   CHECK(second("250", "x") == "trace.csv:4: tick_ns is 'x': expected a number");

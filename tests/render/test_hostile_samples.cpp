@@ -273,10 +273,10 @@ TEST_CASE("on a moving pen clocks that stop, run backwards or jump change no sta
           other({placed(U'三')}, {}, test_device(), options);
       ScriptedPen pen(renderer);
       double clock = 0.0, difference = 0.0, springs = 0.0, damped = 0.0;
-      int states = 0, written = 0;
+      int states = 0, written = 0, ticks = 0;
       pen.on_tick = [&](const HapticTick& tick) {
         DeviceState state = state_with(tick.device_point);
-        state.time = clock += leap;
+        state.time = clock += ++ticks % 40 == 0 ? 0.001 : leap;  // without a rest, leaps are no clock in seconds
         const HapticTick& twin = other.update(state);
         states += twin.state != tick.state || twin.events != tick.events || twin.stroke != tick.stroke;
         springs = std::max({springs, (twin.attraction - tick.attraction).norm(),
@@ -298,6 +298,31 @@ TEST_CASE("on a moving pen clocks that stop, run backwards or jump change no sta
   }
 }
 
+TEST_CASE("a clock that is not in seconds is told within 50 samples and takes the force away, at every rate", "[render]") {
+  for (const double rate : {100.0, 1000.0, 20'000.0}) {
+    for (const double unit : {1e3, 1e6, 1e9}) {  // milliseconds, microseconds, nanoseconds
+      RendererOptions options;
+      options.servo_rate = rate;
+      options.stiffness_check = StiffnessCheck::clip;
+      MidStroke test(options);
+      REQUIRE(test.renderer.last().force.norm() > 0.05);
+      DeviceState state = state_with(test.place);
+      int untold = 0;
+      for (int i = 1; i < 50 + static_cast<int>(rate); ++i) {
+        state.time = unit * i / rate;
+        const HapticTick& tick = test.renderer.update(state);
+        if (i > 50) untold += tick.status != TickStatus::bad_clock;
+      }
+      CAPTURE(rate, unit);
+      CHECK(untold == 0);
+      CHECK(test.renderer.last().force == Vector3d(0, 0, 0));
+      state.time = 0.0;
+      test.renderer.update(state);
+      CHECK(test.renderer.last().status == TickStatus::ok);
+    }
+  }
+}
+
 TEST_CASE("no sequence of samples makes the force step, exceed the peak or lose finiteness", "[render]") {
   std::vector<RendererOptions> all(5);
   all[1].contact.lift_between_strokes = false;
@@ -305,7 +330,7 @@ TEST_CASE("no sequence of samples makes the force step, exceed the peak or lose 
   all[2] = RendererOptions::wang2006();
   all[2].limits = {};
   all[3].rules = Rules::wang2006_signs;
-  all[4].limits.max_speed = 1e9;
+  all[4].limits.max_speed = 100.0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     HapticRenderer renderer({placed(U'永'), placed(U'北', {0.03, 0.02})}, {}, test_device(), all[i]);
     INFO("options " << i);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,53 @@ TEST_CASE("each option out of range is named with its value", "[render]") {
       }
     }
   }
+}
+
+TEST_CASE("no option takes a number with which nothing could be written, and each says why", "[render]") {
+  for (const Domain& domain : domains) {
+    RendererOptions options;
+    options.stiffness_check = StiffnessCheck::off;
+    domain.option(options) = 1e9;
+    const std::string name = domain.name;
+    CAPTURE(name);
+    if (!domain.infinity_allowed) CHECK(contains(complaint(options), name + " = 1e+09"));
+    domain.option(options) = 1e-9;
+    const bool means_something = (domain.zero_allowed && name != "servo_rate") || name == "nearest.tolerance";
+    CHECK(contains(complaint(options), name + " = 1e-09") != means_something);
+  }
+  const auto refused = [](const char* text, const std::function<void(RendererOptions&)>& change) {
+    RendererOptions options;
+    change(options);
+    CAPTURE(text);
+    CHECK(contains(complaint(options), text));
+  };
+  refused("tolerances.corridor = 0.005 em, must be from 0.01 to 0.5: the pen is looked at each 0.01 em",
+          [](RendererOptions& o) { o.tolerances.corridor = 0.005; });
+  refused("energy.max_gap = 16 s", [](RendererOptions& o) { o.energy.max_gap = 16.0; });  // meant in milliseconds
+  refused("contact.lift_time = 50 s", [](RendererOptions& o) { o.contact.lift_time = 50.0; });
+  refused("servo_rate = 5 Hz", [](RendererOptions& o) { o.servo_rate = 5.0; });
+  for (const double rate : {1.0, 5.0}) {
+    Capabilities slow = test_device();
+    slow.update_rate = rate;
+    CHECK(contains(complaint([&] { RendererOptions::for_device(slow); }), "update_rate of the device = "));
+  }
+}
+
+TEST_CASE("a stroke that the tolerances would not take though it is drawn exactly is named at set-up", "[render]") {
+  const std::vector<StrokeInput> inputs = {{1, {{0.2, 0.2}, {0.8, 0.2}}}, {16, {{0.2, 0.8}, {0.7, 0.8}, {0.7, 0.3}}}};
+  const auto character = [&](std::size_t count) { return make_character(U'\u4E00', std::span(inputs).first(count)); };
+  const std::vector<PlacedCharacter> page = {{character(1), {{0.02, 0.02}, 0.04}}, {character(2), {{0.08, 0.02}, 0.04}}};
+  const auto found = [&](const std::function<void(StrokeTolerances&)>& change) {
+    RendererOptions options;
+    change(options.tolerances);
+    return complaint([&] { HapticRenderer(page, {}, test_device(), options); });
+  };
+  CHECK(found([](StrokeTolerances&) {}).empty());
+  CHECK(found([](StrokeTolerances& t) { t.corridor = 0.01; }).empty());
+  // All but a millionth must be covered, and a pen covers less of a corner as its offset turns with it.
+  CHECK(contains(found([](StrokeTolerances& t) { t.coverage = 1.0 - 1e-6, t.slack = 0.0; }),
+                 "character 2 of the page: stroke 2: drawn exactly, it would not be finished with tolerances.corridor"));
+  CHECK(found([](StrokeTolerances& t) { t.coverage = 0.0; }).empty());  // the feature planes finish it
 }
 
 TEST_CASE("the damping of friction out of range is named, where there is friction", "[render]") {

@@ -328,7 +328,7 @@ TEST_CASE("a disabled stage changes no bit, whatever its parameters", "[render]"
   changed.guidance.assist.min_assistance = 0.9;
   changed.paper.friction.stiffness = 10.0;
   changed.paper.friction.damping = 1.0;
-  changed.energy.max_gap = 1.0;
+  changed.energy.max_gap = 0.1;
   for (const char32_t code : {U'三', U'永'}) {
     HapticRenderer one = renderer_of(code, RendererOptions{}), other = renderer_of(code, changed);
     ScriptedPen pen(one);

@@ -455,10 +455,11 @@ typedef enum calligraphy_event {
 
 /// Whether the sample of a tick was usable.
 typedef enum calligraphy_tick_status {
-  CALLIGRAPHY_TICK_OK = 0,           ///< a fresh sample
-  CALLIGRAPHY_TICK_STALE = 1,        ///< no new sample, as the device says: the force is held, then ramps down to zero
-  CALLIGRAPHY_TICK_BAD_SAMPLE = 2,   ///< not finite, or too far away: the force ramps down to zero
-  CALLIGRAPHY_TICK_DEVICE_FAULT = 3  ///< reported by the device: the force ramps down to zero
+  CALLIGRAPHY_TICK_OK = 0,            ///< a fresh sample
+  CALLIGRAPHY_TICK_STALE = 1,         ///< no new sample, as the device says: the force is held, then ramps down to zero
+  CALLIGRAPHY_TICK_BAD_SAMPLE = 2,    ///< not finite, or too far away: the force ramps down to zero
+  CALLIGRAPHY_TICK_DEVICE_FAULT = 3,  ///< reported by the device: the force ramps down to zero
+  CALLIGRAPHY_TICK_BAD_CLOCK = 4      ///< times not in seconds, or a loop not at its rate: the force ramps down to zero
 } calligraphy_tick_status;
 
 /// Why a pen on the paper is not guided.

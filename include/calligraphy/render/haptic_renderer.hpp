@@ -24,7 +24,8 @@ namespace calligraphy {
 class HapticRenderer {
  public:
   /// Prepares a page, with nothing written.
-  /// @throws ValueError naming the option, the mapping, the character or its placement that is invalid
+  /// @throws ValueError naming the option, the mapping, the character or its placement that is invalid, or the stroke
+  /// that a pen would not begin or finish though it drew it exactly, with tolerances that are no preset
   HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping, const Capabilities& capabilities,
                  const RendererOptions& options = {});
 

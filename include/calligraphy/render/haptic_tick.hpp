@@ -39,10 +39,13 @@ enum class TickStatus : std::uint8_t {
   ok,           ///< a fresh sample
   stale,        ///< no new sample, as the device says: the force is held for 4 ms, then ramps down to zero
   bad_sample,   ///< not finite, or farther away than a pen can have moved: the force ramps down to zero
-  device_fault  ///< reported by the device: the force ramps down to zero
+  device_fault,  ///< reported by the device: the force ramps down to zero
+  /// 50 samples running, each later than the one before by 300 periods of the servo rate: their times are not in
+  /// seconds, or the loop is not at its rate. Dampers know no velocity then: the force ramps down to zero.
+  bad_clock
 };
 
-/// "ok", "stale", "bad_sample", "device_fault".
+/// "ok", "stale", "bad_sample", "device_fault", "bad_clock".
 const char* to_string(TickStatus status) noexcept;
 
 /// Why a pen on the paper is not guided, or by less than it should be, for a display to show.

@@ -87,7 +87,8 @@ struct ForceLimits {
 struct EnergyOptions {
   /// Maximum net energy given since the start; near it the force is reduced. Infinite: no limit [J].
   double budget = std::numeric_limits<double>::infinity();
-  /// With a budget: the longest time without a fresh sample that it must hold over, by default that of Servo [s].
+  /// With a budget: the longest time without a fresh sample that it must hold over, at most 0.1, by default that of
+  /// Servo [s].
   double max_gap = 0.016;
 
   /// Whether there is a budget, and so an account of the energy.
@@ -97,12 +98,14 @@ struct EnergyOptions {
 /// How the renderer works, in groups: how the paper feels, how the pen is led, what counts as contact and as writing
 /// the stroke, and what bounds the force. The defaults suit any hand; for_device() fits them to a device.
 struct RendererOptions {
-  double servo_rate = 0.0;       ///< ticks per second; 0: the device's own rate (Capabilities::update_rate) [Hz]
+  /// Ticks per second, at least 50; 0: the device's own rate (Capabilities::update_rate) [Hz].
+  double servo_rate = 0.0;
   Rules rules = Rules::revised;  ///< those of the paper that were revised, or all as printed
   StiffnessCheck stiffness_check = StiffnessCheck::reject;  ///< what to do with a spring too stiff for the device
   /// How the nearest point of the stroke is found, and how exactly: time against accuracy (docs/nearest-point.md).
   NearestPointOptions nearest = {.method = NearestPointMethod::tracked};
-  /// Cut-off frequency of the low-pass on the pen's velocity, which all dampers act on (VelocityEstimator) [Hz].
+  /// Cut-off frequency of the low-pass on the pen's velocity, which all dampers act on (VelocityEstimator), at least 5
+  /// [Hz].
   double velocity_cutoff = 50.0;
   /// Of a usual grip: how far a hand yields to the force, and so where it would be without it [N/m, device].
   double grip_stiffness = 300.0;
@@ -145,8 +148,8 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
 /// Maximum stiffness of guidance that clip_stiffness() permits, attraction factor included [N/m].
 double max_guidance_stiffness(const RendererOptions& options, const Capabilities& capabilities, double scale = 1.0);
 
-/// @throws ValueError naming the option and its value: not finite, out of range, or a stiffness that clip_stiffness()
-/// would clip
+/// @throws ValueError naming the option, its value and, where that is not plain, the reason: not finite, out of range, or
+/// a stiffness that clip_stiffness() would clip
 void validate(const RendererOptions& options, const Capabilities& capabilities, double scale = 1.0);
 
 }  // namespace calligraphy

@@ -35,6 +35,9 @@ struct StrokeTolerances {
   /// so that a lower value tells the same and more [1].
   double evidence = 1.0;
 
+  /// Whether all are the same.
+  bool operator==(const StrokeTolerances&) const = default;
+
   /// For beginners and for large devices held loosely.
   static constexpr StrokeTolerances lenient() noexcept {
     return {0.25, std::numbers::pi / 2.5, 0.04, 3.0, 0.08, 0.8, 0.06, 1.3};

@@ -31,6 +31,7 @@ class PenSensor {
  private:
   void count_ticks(const DeviceState& sample) noexcept;
   TickStatus accept(const DeviceState& sample) noexcept;
+  bool is_leaping(double time) noexcept;
   bool is_plausible(const Eigen::Vector3d& position, double elapsed) const noexcept;
   void move_device_point(const DeviceState& sample, const Eigen::Vector3d& position) noexcept;
   void estimate_motion(const Eigen::Vector3d& position, double elapsed) noexcept;
@@ -46,6 +47,8 @@ class PenSensor {
   PenState pen_;
   bool has_sample_ = false;                  ///< a sample was accepted, and the pen has moved on from there
   double time_ = 0.0;                        ///< of that sample [s]
+  double clock_ = 0.0;                       ///< time of the last sample that was not stale [s]
+  int leaps_ = 0;                            ///< samples running that were much later than the one before
   std::int64_t unseen_ = 0;                  ///< ticks since then, without a good sample
   double above_for_ = 0.0;                   ///< how long a pen in contact has been above the paper [s]
   std::optional<Eigen::Vector3d> rejected_;  ///< position of a sample just rejected as too far away
