@@ -69,13 +69,16 @@ std::vector<std::string> ServoLoop::start(
   };
   try {
     entry_.emplace(&servo_, wait_for_zero);
-    clock_->start([this](double now) {
-      if (told_) servo_.step(now);
-    });
     add(watchdog_.warnings());
-    if (own) add(thread_.warnings());
+    if (own) {
+      thread_.start([this](double now) {
+        if (told_) servo_.step(now);
+      });
+      add(thread_.warnings());
+    }
     add(device_.warnings());
     if (tell) tell(warnings);
+    if (!own) clock_->start([this](double now) { servo_.step(now); });
   } catch (...) {
     running_ = false;
     clock_->stop();

@@ -358,6 +358,14 @@ TEST_CASE("warnings are told before the first tick, without which the loop does 
   CHECK(told == device.warnings());
   device.own_clock.tick(3e-3);
   CHECK(device.inner.last() == 2.0);
+
+  WatchedDevice without_clock;
+  ServoLoop another(without_clock, push, patient());
+  another.start([&](const std::vector<std::string>&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    CHECK(another.statistics().ticks == 0);
+  });
+  CHECK(comes([&] { return another.statistics().ticks > 0; }));
 }
 
 TEST_CASE("a clock that cannot be started leaves the loop stopped", "[servo]") {

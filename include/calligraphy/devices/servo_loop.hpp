@@ -57,7 +57,7 @@ class ServoLoop {
   ServoThread watchdog_;
   ServoClock* clock_ = nullptr;  ///< null while stopped
   std::atomic<bool> running_ = false;
-  std::atomic<bool> told_ = false;  ///< the warnings; ticks do nothing before
+  std::atomic<bool> told_ = false;  ///< the warnings; ticks of the loop's own thread do nothing before
   std::optional<EmergencyStopEntry> entry_;  ///< while the clock runs
 };
 
