@@ -11,8 +11,8 @@ namespace calligraphy {
 double servo_rate(const RendererOptions& options, const Capabilities& capabilities) {
   const bool is_asked_for = options.servo_rate != 0.0;
   const double rate = is_asked_for ? options.servo_rate : capabilities.update_rate;
-  require_within(is_asked_for ? "servo_rate" : "update_rate of the device", rate, "Hz", 50.0, 1e6,
-                 "in a slower loop no spring that a hand would feel is stable");
+  require_within(is_asked_for ? "servo_rate" : "update_rate of the device", rate, "Hz", 10.0, 1e6,
+                 "a slower loop guides nobody");
   return rate;
 }
 

@@ -98,7 +98,7 @@ struct EnergyOptions {
 /// How the renderer works, in groups: how the paper feels, how the pen is led, what counts as contact and as writing
 /// the stroke, and what bounds the force. The defaults suit any hand; for_device() fits them to a device.
 struct RendererOptions {
-  /// Ticks per second, at least 50; 0: the device's own rate (Capabilities::update_rate) [Hz].
+  /// Ticks per second, at least 10; 0: the device's own rate (Capabilities::update_rate) [Hz].
   double servo_rate = 0.0;
   Rules rules = Rules::revised;  ///< those of the paper that were revised, or all as printed
   StiffnessCheck stiffness_check = StiffnessCheck::reject;  ///< what to do with a spring too stiff for the device
