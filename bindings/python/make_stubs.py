@@ -60,6 +60,7 @@ class Finish(ast.NodeTransformer):
         self.added = added
 
     def visit_ClassDef(self, node: ast.ClassDef) -> ast.ClassDef:
+        node.body = [item for item in node.body if getattr(item, "name", "") != "__str__"]  # as every object has it
         functions = [item for item in node.body if isinstance(item, ast.FunctionDef)]
         if node.name in self.enumerations:
             members = "\n".join(f"{name} = {value}" for name, value in self.enumerations[node.name].items())

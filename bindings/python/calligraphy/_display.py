@@ -121,7 +121,7 @@ def _show_score(self: cal.CharacterScore) -> str:
         ("time [s]", _number(self.time)),
         *((name.replace("_", " "), _number(getattr(self, name))) for name in _ELEMENTS),
     ]
-    return html_table(rows) + _show_match(self.match)
+    return html_table(rows) + str(_show_match(self.match))
 
 
 @_method(cal.MeanScore, "_repr_html_")
