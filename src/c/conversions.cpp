@@ -67,6 +67,8 @@ void each_option(C& c, Options& o, const Exchange& exchange) {
   exchange(c.limit_normal_rate, o.limits.normal_rate);
   exchange(c.limit_thermal_time_constant, o.limits.thermal_time_constant);
   exchange(c.limit_max_speed, o.limits.max_speed);
+  exchange(c.limit_max_acceleration, o.limits.max_acceleration);
+  exchange(c.limit_max_standstill, o.limits.max_standstill);
   exchange(c.energy_budget, o.energy.budget);
   exchange(c.energy_max_gap, o.energy.max_gap);
 }

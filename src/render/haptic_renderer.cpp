@@ -8,7 +8,7 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
                                const Capabilities& capabilities, const RendererOptions& options)
     : mapping_(mapping),
       effective_(effective_options(options, page, mapping, capabilities)),
-      sensor_(effective_.options, mapping),
+      sensor_(effective_.options, mapping, capabilities),
       sequencer_(std::move(page), effective_.options, capabilities, mapping),
       guidance_(effective_),
       paper_(effective_.options),
@@ -26,7 +26,7 @@ void HapticRenderer::restart() noexcept {
 /// Compiled into one piece with all that it calls in this component, except for what happens once in a stroke
 /// (gnu::noinline): calls of small functions took a fifth of a tick.
 [[gnu::flatten]] const HapticTick& HapticRenderer::update(const DeviceState& sample) noexcept {
-  const PenState& pen = sensor_.update(sample);
+  const PenState& pen = sensor_.update(sample, output_.last().device);
   const WriterState& writer = sequencer_.update(pen);
   const GuidanceForce& guidance = guidance_.update(pen, writer, output_.last().guidance);
   const PaperForce& paper = paper_.update(pen, writer, output_.last().page.z());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "collision/length.hpp"
 
@@ -14,6 +15,10 @@ constexpr double max_integration_time = 0.1;
 /// For how long the force is held while samples are stale [s].
 constexpr double max_hold_time = 4e-3;
 
+/// For how long after a bad sample, and at first, the force follows the pen by its rate alone: of a noisy sensor some
+/// samples are always near by chance [s].
+constexpr double max_unsure_time = 0.01;
+
 /// Hysteresis: the pen is above the paper once it is this far above it [m].
 constexpr double lift_height = 0.0005;
 
@@ -24,6 +29,10 @@ constexpr double min_pause = 1.75;
 constexpr double min_leap = 300.0;
 constexpr int max_leaps = 50;
 
+/// A change of force that moves the pen in any hand, by tenths of a millimetre, and how often the dry friction of the
+/// device must be in it besides: it may have held the pen against twice itself, and is an estimate [N].
+constexpr double unfelt_force = 0.5, frictions = 4.0;
+
 /// False for NaN too.
 bool is_on_page(const Eigen::Vector3d& position) noexcept {
   constexpr double most = PenSensor::max_coordinate;
@@ -33,14 +42,19 @@ bool is_on_page(const Eigen::Vector3d& position) noexcept {
 
 }  // namespace
 
-PenSensor::PenSensor(const RendererOptions& options, const MotionMapping& mapping)
+PenSensor::PenSensor(const RendererOptions& options, const MotionMapping& mapping, const Capabilities& capabilities)
     : contact_(options.contact),
       mapping_(mapping),
       is_printed_(is_printed(options.rules)),
       max_speed_(options.limits.max_speed * mapping.scale),
       period_(1.0 / options.servo_rate),
       counts_pauses_(options.energy.limited()),
-      velocity_(options.velocity_cutoff) {}
+      max_standstill_(options.limits.max_standstill),
+      min_force_change_(unfelt_force + frictions * capabilities.coulomb_friction),
+      velocity_(options.velocity_cutoff),
+      unsure_for_(max_unsure_time),
+      believed_(options.limits, capabilities, period_, mapping.scale),
+      doubted_(believed_) {}
 
 void PenSensor::restart() noexcept {
   pen_ = {};
@@ -48,16 +62,19 @@ void PenSensor::restart() noexcept {
   has_sample_ = false;
   unseen_ = 0;
   above_for_ = 0.0;
+  unsure_for_ = max_unsure_time;
   leaps_ = 0;
-  rejected_.reset();
+  is_in_doubt_ = false;
+  still_at_.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
-const PenState& PenSensor::update(const DeviceState& sample) noexcept {
+const PenState& PenSensor::update(const DeviceState& sample, const Eigen::Vector3d& sent) noexcept {
   pen_.time = sample.time;
   pen_.force = sample.force;
   if (counts_pauses_) count_ticks(sample);
-  pen_.status = accept(sample);
+  pen_.status = accept(sample, sent);
   unseen_ = pen_.status == TickStatus::ok ? 0 : unseen_ + 1;
+  unsure_for_ = pen_.status == TickStatus::bad_sample ? max_unsure_time : std::max(0.0, unsure_for_ - period_);
   pen_.holds_force = pen_.status == TickStatus::stale && static_cast<double>(unseen_) * period_ <= max_hold_time;
   return pen_;
 }
@@ -77,7 +94,7 @@ void PenSensor::count_ticks(const DeviceState& sample) noexcept {
   unseen_ += pen_.ticks - 1;  // counted once, if this sample turns out to be bad
 }
 
-TickStatus PenSensor::accept(const DeviceState& sample) noexcept {
+TickStatus PenSensor::accept(const DeviceState& sample, const Eigen::Vector3d& sent) noexcept {
   const bool is_usable = sample.status == DeviceStatus::ok || sample.status == DeviceStatus::stale ||
                          sample.status == DeviceStatus::warm_motors;
   if (!is_usable) return TickStatus::device_fault;
@@ -88,15 +105,8 @@ TickStatus PenSensor::accept(const DeviceState& sample) noexcept {
   // A clock that stands or runs backwards must not turn a small motion into a fast one.
   const double passed = sample.time - time_;
   double elapsed = passed > period_ ? passed : period_;
-  if (!is_plausible(position, elapsed)) {
-    rejected_ = position;
-    return TickStatus::bad_sample;
-  }
-  if (rejected_) {
-    velocity_.restart();  // the pen is elsewhere, and did not move there, or nobody knows where it was
-    has_sample_ = false;
-    rejected_.reset();
-  }
+  if (is_frozen(sample.position, is_finite(sample.force) ? sample.force : sent)) return TickStatus::bad_sample;
+  if (!is_plausible(position, passed)) return TickStatus::bad_sample;
   if (!has_sample_) elapsed = period_;
   move_device_point(sample, position);
   estimate_motion(position, elapsed);
@@ -113,14 +123,42 @@ bool PenSensor::is_leaping(double time) noexcept {
   return leaps_ == max_leaps;
 }
 
-/// A pen cannot jump: a single sample far away is rejected. A second one near the first is accepted, because then the
-/// device really is elsewhere.
-bool PenSensor::is_plausible(const Eigen::Vector3d& position, double elapsed) const noexcept {
-  if (!has_sample_) return true;
-  const double reach = max_speed_ * elapsed;
-  const Eigen::Vector3d way = position - pen_.position;
-  if (dot(way, way) <= reach * reach) return true;
-  return rejected_ && norm(position - *rejected_) <= max_speed_ * period_;
+/// A force that changes moves the pen in any hand, if only by a step of the encoder: a position that stays the same to
+/// the last bit meanwhile is that of a sensor that has died.
+bool PenSensor::is_frozen(const Eigen::Vector3d& position, const Eigen::Vector3d& force) noexcept {
+  if (max_standstill_ == std::numeric_limits<double>::infinity()) return false;
+  if (position != still_at_) {
+    still_at_ = position;
+    still_force_ = force;
+    still_for_ = 0.0;
+  } else if (still_for_ > 0.0 || norm(force - still_force_) > min_force_change_) {
+    still_for_ += period_;
+  }
+  return still_for_ > max_standstill_;
+}
+
+/// A pen cannot jump: a sample off its course is rejected. Once those that are make a course of their own the pen really
+/// is elsewhere, and did not move there, or nobody knows where it was.
+bool PenSensor::is_plausible(const Eigen::Vector3d& position, double elapsed) noexcept {
+  if (!has_sample_) {
+    believed_.begin(position, false);
+  } else if (believed_.permits(position, elapsed)) {
+    believed_.add(position, elapsed);
+  } else {
+    const bool agrees = is_in_doubt_ && doubted_.permits(position, period_);
+    if (is_in_doubt_) {
+      doubted_.add(position, period_);
+    } else {
+      doubted_.begin(position, true);
+    }
+    is_in_doubt_ = true;
+    if (!agrees) return false;
+    believed_ = doubted_;
+    velocity_.restart();
+    has_sample_ = false;
+  }
+  is_in_doubt_ = false;
+  return true;
 }
 
 void PenSensor::move_device_point(const DeviceState& sample, const Eigen::Vector3d& position) noexcept {
@@ -142,8 +180,9 @@ void PenSensor::estimate_motion(const Eigen::Vector3d& position, double elapsed)
   pen_.last_position = pen_.position;
   pen_.velocity = velocity_.update(position, elapsed);
   pen_.position = position;
-  if (has_sample_ && unseen_ == 0) return;
-  // The force has not followed the pen meanwhile, and must not jump to where it would be.
+  if (has_sample_ && unseen_ == 0 && unsure_for_ == 0.0) return;
+  // The force has not followed the pen meanwhile, and must not jump to where it would be; nor to where a sensor says
+  // that has just been wrong.
   pen_.last_velocity = pen_.velocity;
   pen_.last_position = position;
 }

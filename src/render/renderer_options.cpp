@@ -90,6 +90,7 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities, do
   if (is_modelled) options.energy.budget = 0.1;
   const bool warms = capabilities.continuous_force > 0.0 && capabilities.continuous_force < capabilities.peak_force;
   options.limits.thermal_time_constant = warms ? 10.0 : 0.0;
+  if (!capabilities.simulated) options.limits.max_standstill = 0.5;
   return options;
 }
 
@@ -150,6 +151,14 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require_within("grip_stiffness", options.grip_stiffness, "N/m", 10.0, 1e5, "no hand is softer, or firmer");
   require_within("limits.max_speed", options.limits.max_speed, "m/s", 0.5, 100.0,
                  "a hand is as fast, and no device is faster");
+  if (options.limits.max_acceleration != std::numeric_limits<double>::infinity()) {
+    require_within("limits.max_acceleration", options.limits.max_acceleration, "m/s^2", 20.0, 1e6,
+                   "a hand that writes accelerates as much, and no pen more");
+  }
+  if (options.limits.max_standstill != std::numeric_limits<double>::infinity()) {
+    require_within("limits.max_standstill", options.limits.max_standstill, "s", 0.1, 3600.0,
+                   "a hand takes as long to yield, and nobody waits longer");
+  }
 }
 
 }  // namespace calligraphy

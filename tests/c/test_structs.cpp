@@ -89,6 +89,8 @@ const std::vector<std::pair<const char*, Change>> changes = {
     CHANGE(limit_normal_rate, limits.normal_rate, INFINITY),
     CHANGE(limit_thermal_time_constant, limits.thermal_time_constant, 20.0),
     CHANGE(limit_max_speed, limits.max_speed, 4.0),
+    CHANGE(limit_max_acceleration, limits.max_acceleration, 150.0),
+    CHANGE(limit_max_standstill, limits.max_standstill, 0.7),
     CHANGE(energy_budget, energy.budget, 0.2),
     CHANGE(energy_max_gap, energy.max_gap, 0.02),
 #undef CHANGE
@@ -442,7 +444,7 @@ TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its 
   CHECK(sizeof(calligraphy_device_state) == 112);
   CHECK(sizeof(calligraphy_grip) == 32);
   CHECK(sizeof(calligraphy_pointer_options) == 56);
-  CHECK(sizeof(calligraphy_renderer_options) == 360);
+  CHECK(sizeof(calligraphy_renderer_options) == 376);
   CHECK(sizeof(calligraphy_tick) == 360);
   CHECK(sizeof(calligraphy_servo_state) == 192);
   CHECK(sizeof(calligraphy_drawn_stroke) == 48);

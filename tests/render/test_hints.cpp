@@ -213,7 +213,7 @@ TEST_CASE("guidance that lets go of a pen is withdrawn within guidance_fade_out,
     page.rest(300);
     const double before = page.renderer.last().page_force.head<2>().norm();
     CHECK(before > 1.0);
-    page.pen.speed = 0.5;
+    page.pen.speed = 0.25;
     if (lifts) {
       page.lift();
     } else {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <calligraphy/devices/device_profiles.hpp>
+
 #include "../hard_cases.hpp"
 #include "../sanitized.hpp"
 #include "../scripted_pen.hpp"
@@ -29,8 +31,8 @@ struct MidStroke {
   ScriptedPen pen;
   Vector3d place;
 
-  explicit MidStroke(const RendererOptions& options = {})
-      : renderer({placed(U'三')}, {}, test_device(), options), pen(renderer, renderer.options().servo_rate) {
+  explicit MidStroke(const RendererOptions& options = {}, const Capabilities& device = test_device())
+      : renderer({placed(U'三')}, {}, device, options), pen(renderer, renderer.options().servo_rate) {
     const Stroke first = strokes(renderer.page()[0].character)[0];
     const Point start = renderer.page()[0].placement.to_page(first.control_points[0]);
     place = {start.x() + 0.01, start.y() + 0.003, -0.002};
@@ -132,8 +134,8 @@ TEST_CASE("a pen that is moved while no good sample arrives feels no step on its
         MidStroke test;
         const Vector3d unknown(not_a_number, 0.0, 0.0);  // with status ok: a bad sample
         for (int i = 0; i < missed; ++i) test.pen.sample(state_with(unknown, status));
-        // 4 mm deeper in the paper, at 1 mm/ms at most: as fast as it may be, faster than the force may follow.
-        const double way = std::min(0.004, 0.001 * missed);
+        // 4 mm deeper in the paper, at 0.15 mm/ms at most: as fast as may be from rest, faster than the force may follow.
+        const double way = std::min(0.004, 0.00015 * (missed + 1));
         test.place += Vector3d(0.0, way, -way);
         const Vector3d before = test.renderer.last().force;
         test.pen.at(test.place);
@@ -244,6 +246,47 @@ TEST_CASE("a single sample far away is rejected, a second one near it accepted",
   CHECK(test.pen.max_unexplained <= 1e-12);
 }
 
+TEST_CASE("a wrong sample, or noise of half a millimetre, changes the force on a pen at rest as docs/stability.md says",
+          "[render]") {
+  struct Row {
+    double max_acceleration, rate, wrong_sample, noise;  // [N per tick]
+  };
+  for (const Row& row : {Row{infinity, 100, 4.4, 1.2}, Row{infinity, 1000, 4.0, 3.3}, Row{infinity, 10'000, 1.1, 1.1},
+                         Row{100, 100, 4.4, 1.2}, Row{100, 1000, 0.66, 0.69}, Row{100, 10'000, 0.42, 0.60}}) {
+    double wrong_sample = 0.0, noise = 0.0;
+    for (Capabilities device : device_profiles()) {
+      for (const bool everything : {false, true}) {
+        device.update_rate = row.rate;
+        RendererOptions options = everything ? RendererOptions::everything(device) : RendererOptions::for_device(device);
+        options.energy.budget = infinity;  // it would take from the force
+        options.limits.max_acceleration = row.max_acceleration;
+        MidStroke test(options, device);
+        Sequence random(9);
+        const auto among = [&](double size) {
+          return Vector3d(random.between(-size, size), random.between(-size, size), random.between(-size, size));
+        };
+        const auto largest_step = [&](int samples, auto&& displacement) {
+          test.rest(static_cast<int>(0.05 * row.rate));
+          test.pen.max_step = 0.0;
+          for (int i = 0; i < samples; ++i) test.pen.at(test.place + displacement());
+          test.pen.at(test.place);
+          return test.pen.max_step;
+        };
+        for (int i = 0; i < 200; ++i) {
+          wrong_sample = std::max(wrong_sample, largest_step(1, [&] {
+                                    const double share = random.next();  // most of them near
+                                    return Vector3d(0.006 * share * share * among(1.0).normalized());
+                                  }));
+          noise = std::max(noise, largest_step(50, [&] { return among(0.0005); }));
+        }
+      }
+    }
+    CAPTURE(row.max_acceleration, row.rate);
+    CHECK(wrong_sample == Approx(row.wrong_sample).epsilon(0.05));
+    CHECK(noise == Approx(row.noise).epsilon(0.05));
+  }
+}
+
 TEST_CASE("clocks that stop, run backwards or jump change neither the force on a pen at rest nor its state",
           "[render]") {
   for (const double leap : {0.0, -1.0, -1e9, 10.0, 1e9, 1e300}) {
@@ -331,6 +374,7 @@ TEST_CASE("no sequence of samples makes the force step, exceed the peak or lose 
   all[2].limits = {};
   all[3].rules = Rules::wang2006_signs;
   all[4].limits.max_speed = 100.0;
+  for (std::size_t i = 1; i < all.size(); ++i) all[i].limits.max_acceleration = infinity;
   for (std::size_t i = 0; i < all.size(); ++i) {
     HapticRenderer renderer({placed(U'永'), placed(U'北', {0.03, 0.02})}, {}, test_device(), all[i]);
     INFO("options " << i);

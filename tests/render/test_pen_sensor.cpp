@@ -4,7 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/render/detail/pen_sensor.hpp>
+
+#include "../hard_cases.hpp"
 
 namespace pen_sensor_tests {
 
@@ -19,14 +22,15 @@ struct Sampled {
   PenSensor sensor;
   DeviceState sample;
 
+  /// Of a pen that leaps.
   explicit Sampled(RendererOptions options = {}, const MotionMapping& mapping = {})
-      : sensor((options.servo_rate = 1000.0, options), mapping) {}
+      : sensor((options.servo_rate = 1000.0, options.limits.max_acceleration = HUGE_VAL, options), mapping, {}) {}
 
   /// The next sample, 1 ms after the one before.
   const PenState& at(const Vector3d& position) {
     sample.position = position;
     sample.time += 0.001;
-    return sensor.update(sample);
+    return sensor.update(sample, {0, 0, 0});
   }
   const PenState& with(DeviceStatus status) {
     sample.status = status;
@@ -69,6 +73,85 @@ TEST_CASE("a position that is not finite or farther than 1 km is a bad sample, i
   }
 }
 
+TEST_CASE("a pen in a hand is believed at every rate, and a sample off its course is not, wherever it is", "[render]") {
+  calligraphy_test::Sequence random(3);
+  for (const double rate : {100.0, 500.0, 1000.0, 3000.0, 10'000.0}) {
+    for (const double scale : {0.5, 1.0, 3.0}) {
+      for (const Capabilities& device : device_profiles()) {
+        RendererOptions options;
+        options.servo_rate = rate;
+        MotionMapping mapping;
+        mapping.scale = scale;
+        PenSensor sensor(options, mapping, device);
+        const double noise = 5.0 * std::max(device.encoder_step, 30e-6);
+        // A hand that scribbles with up to 0.5 m/s and 90 m/s^2, in three directions.
+        const double amplitude = 0.5 * 0.5 / 90.0 / std::sqrt(3.0), frequency = 90.0 / 0.5;
+        Vector3d phase(random.between(0, 6), random.between(0, 6), random.between(0, 6)), shown(0, 0, 0);
+        DeviceState sample;
+        int refused = 0, believed = 0, last_event = 0;
+        for (int i = 0; i < 2000; ++i) {
+          sample.time += random.between(0.7, 1.3) / rate;
+          const bool may_err = i > last_event + 5;
+          const bool repeats = may_err && random.next() < 0.05;  // unflagged
+          const Vector3d place = amplitude * (frequency * sample.time + phase.array()).sin();
+          if (!repeats) {
+            const int clicking = static_cast<int>(random.between(0, 30));
+            for (int axis = 0; axis < 3; ++axis) {
+              const double click = axis == clicking ? 1.0 : 0.0;  // an encoder's, to and fro
+              shown[axis] = device.encoder_step * (std::round(place[axis] / device.encoder_step) + click);
+              if (device.encoder_step == 0.0) shown[axis] = place[axis];
+            }
+          }
+          sample.position = shown;
+          refused += sensor.update(sample, {0, 0, 0}).status != TickStatus::ok;
+          if (repeats) last_event = i;
+          if (!may_err || repeats || random.next() > 0.05) continue;
+          // In place of the next one: beyond the way of 2.5 periods and what acceleration and noise add.
+          last_event = ++i;
+          sample.time += random.between(0.7, 1.3) / rate;
+          const double beyond = noise + device.encoder_step + 2.5 * 0.5 / rate + 4.0 * 100.0 / (rate * rate);
+          sample.position = shown + Vector3d(random.between(-1, 1), random.between(-1, 1), 0.1).normalized() *
+                                        std::max(beyond, random.between(0, 0.1));
+          believed += sensor.update(sample, {0, 0, 0}).status != TickStatus::bad_sample;
+        }
+        CAPTURE(rate, scale, device.name);
+        CHECK(refused == 0);
+        CHECK(believed == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("a sensor that stands still while the force changes is dead where that is asked for, and lives once it moves",
+          "[render]") {
+  Capabilities device;
+  device.coulomb_friction = 0.1;
+  for (const bool asked : {false, true}) {
+    RendererOptions options;
+    options.servo_rate = 1000.0;
+    if (asked) options.limits.max_standstill = 0.5;
+    for (const double change : {0.89, -0.89, 0.91, -0.91}) {  // 0.5 N and four times the friction
+      PenSensor sensor(options, {}, device);
+      const double none = not_a_number;
+      for (const bool says_so : {false, true}) {
+        DeviceState sample;
+        sample.position.x() = says_so ? 0.0001 : 0.0;
+        int faults = 0;
+        for (int i = 0; i < 2000; ++i) {
+          const Vector3d force(0, i < 1000 ? 1.0 : 1.0 + change, 0);
+          sample.time += 0.001;
+          sample.force = says_so ? force : Vector3d(none, none, none);
+          faults += sensor.update(sample, force).status == TickStatus::bad_sample;
+        }
+        CAPTURE(asked, change, says_so);
+        CHECK(faults == Approx(asked && std::abs(change) > 0.9 ? 500 : 0).margin(1));
+        sample.position.x() += 1e-9;
+        CHECK(sensor.update(sample, {0, 0, 0}).status == TickStatus::ok);
+      }
+    }
+  }
+}
+
 TEST_CASE("the force is held for 4 ms of stale samples, and not for a fault", "[render]") {
   Sampled pen;
   pen.at({0, 0, -0.001});
@@ -79,7 +162,7 @@ TEST_CASE("the force is held for 4 ms of stale samples, and not for a fault", "[
 
 TEST_CASE("after a gap the pen has not moved as far as the force is concerned, and moves on from there", "[render]") {
   Sampled pen;
-  pen.at({0, 0, 0});
+  for (int i = 0; i < 12; ++i) pen.at({0, 0, 0});  // at first the force follows by its rate alone
   CHECK(pen.at({0.001, 0, 0}).motion().isApprox(Vector3d(0.001, 0, 0)));
   pen.with(DeviceStatus::stale);
   const PenState& after = pen.at({0.003, 0, 0});

@@ -85,6 +85,8 @@ const Domain domains[] = {
     {"limits.normal_rate", [](RendererOptions& o) -> double& { return o.limits.normal_rate; }, false, true},
     {"grip_stiffness", [](RendererOptions& o) -> double& { return o.grip_stiffness; }, false},
     {"limits.max_speed", [](RendererOptions& o) -> double& { return o.limits.max_speed; }, false},
+    {"limits.max_acceleration", [](RendererOptions& o) -> double& { return o.limits.max_acceleration; }, false, true},
+    {"limits.max_standstill", [](RendererOptions& o) -> double& { return o.limits.max_standstill; }, false, true},
     {"guidance.limit", [](RendererOptions& o) -> double& { return o.guidance.limit; }, false},
     {"guidance.assist.retention", [](RendererOptions& o) -> double& { return o.guidance.assist.retention; }, true},
     {"guidance.assist.full_assistance_error",
@@ -328,6 +330,7 @@ TEST_CASE("everything() is valid for the shipped devices, and enables every stag
       const bool warms = shipped.continuous > 0.0 && shipped.continuous < shipped.peak;
       CHECK((options.limits.thermal_time_constant > 0.0) == warms);
       CHECK(options.guidance.limit <= 0.75 * shipped.peak);
+      CHECK(std::isinf(options.limits.max_standstill) == device.simulated);  // the pens of scripts stand still
     }
   }
 }
@@ -728,9 +731,9 @@ TEST_CASE("a pen that is fast on an enlarged page, not in the hand, is no fault"
   options.stiffness_check = StiffnessCheck::clip;
   HapticRenderer renderer({placed(U'永')}, mapping, test_device(), options);
   DeviceState state;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 45; ++i) {
     state.time = 0.001 * i;
-    state.position.x() = 0.004 * i;  // 4 m/s
+    state.position.x() = 0.5 * 90.0 * state.time * state.time;  // up to 4 m/s
     CHECK(renderer.update(state).status == TickStatus::ok);
   }
 }

@@ -59,6 +59,12 @@ TEST_CASE("a pen that chatters at the paper surface changes its state once", "[r
 
 namespace {
 
+/// Lets a pen leap from height to height.
+RendererOptions at_once(RendererOptions options) {
+  options.limits.max_acceleration = std::numeric_limits<double>::infinity();
+  return options;
+}
+
 /// A pen in the middle of the first stroke of 三.
 struct InStroke {
   HapticRenderer renderer;
@@ -67,7 +73,7 @@ struct InStroke {
   int abandoned = 0, lifts = 0;
 
   explicit InStroke(const RendererOptions& options = {})
-      : renderer({placed(U'三')}, {}, test_device(), options), pen(renderer, renderer.options().servo_rate) {
+      : renderer({placed(U'三')}, {}, test_device(), at_once(options)), pen(renderer, renderer.options().servo_rate) {
     const Stroke first = strokes(renderer.page()[0].character)[0];
     const Placement& page = renderer.page()[0].placement;
     const Point start = page.to_page(first.control_points[0]);

@@ -81,6 +81,13 @@ struct ForceLimits {
   /// the peak always [s].
   double thermal_time_constant = 0.0;
   double max_speed = 5.0;  ///< a sample that implies a faster pen is a fault of the device, not a motion [m/s, device]
+  /// Likewise, a sample off the way that the last ones lead by more than this acceleration and five encoder steps
+  /// (0.15 mm at least). Samples that agree with one another are believed again. Infinite: any [m/s^2, device].
+  double max_acceleration = 100.0;
+  /// A position that stays the same to the last bit for longer, after the force has changed by more than any hand and
+  /// the friction of the device can hold still, is that of a dead sensor. An option, since a pen that is clamped stands
+  /// as still. Infinite: permitted for ever [s].
+  double max_standstill = std::numeric_limits<double>::infinity();
 };
 
 /// How much energy the force may give the hand.
@@ -113,7 +120,7 @@ struct RendererOptions {
   GuidanceOptions guidance;     ///< how the pen is led along the stroke
   ContactOptions contact;       ///< when the pen counts as on the paper, and at a character
   StrokeTolerances tolerances;  ///< which pen-down begins the stroke that is due, and when it is finished
-  ForceLimits limits;           ///< of the rate of the force, the motors' heat and the pen's speed
+  ForceLimits limits;           ///< of the rate of the force, the motors' heat and the pen's motion
   EnergyOptions energy;         ///< how much energy the force may give the hand
 
   /// Every rule as printed, except the signs of eq. (8) and (9), which the available text may have lost: with the signs
@@ -130,8 +137,8 @@ struct RendererOptions {
 
   /// for_device() with the optional stages that serve every writer: guidance for large deviations and to the start; the
   /// friction of paper, less the device's own; an energy budget where the device states its mass and a delay of at most
-  /// 15 ticks; a thermal budget where it states a continuous force below its peak. Not assistance as needed, which
-  /// withdraws guidance by intent.
+  /// 15 ticks; a thermal budget where it states a continuous force below its peak; 0.5 s for the sensor of a real device
+  /// that stands still. Not assistance as needed, which withdraws guidance by intent.
   static RendererOptions everything(const Capabilities& capabilities, double scale = 1.0);
 };
 

@@ -3,13 +3,15 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <limits>
 
 #include <Eigen/Core>
 
 #include <calligraphy/collision/placed_character.hpp>
+#include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/devices/velocity_estimator.hpp>
+#include <calligraphy/render/detail/pen_course.hpp>
 #include <calligraphy/render/detail/pen_state.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/renderer_options.hpp>
@@ -23,16 +25,18 @@ class PenSensor {
   static constexpr double max_coordinate = Placement::max_coordinate;
 
   /// The options must be valid.
-  PenSensor(const RendererOptions& options, const MotionMapping& mapping);
+  PenSensor(const RendererOptions& options, const MotionMapping& mapping, const Capabilities& capabilities);
 
-  const PenState& update(const DeviceState& sample) noexcept;
+  /// `sent`: the last force, for a device that does not say which one is at work [N, device axes].
+  const PenState& update(const DeviceState& sample, const Eigen::Vector3d& sent) noexcept;
   void restart() noexcept;
 
  private:
   void count_ticks(const DeviceState& sample) noexcept;
-  TickStatus accept(const DeviceState& sample) noexcept;
+  TickStatus accept(const DeviceState& sample, const Eigen::Vector3d& sent) noexcept;
   bool is_leaping(double time) noexcept;
-  bool is_plausible(const Eigen::Vector3d& position, double elapsed) const noexcept;
+  bool is_frozen(const Eigen::Vector3d& position, const Eigen::Vector3d& force) noexcept;
+  bool is_plausible(const Eigen::Vector3d& position, double elapsed) noexcept;
   void move_device_point(const DeviceState& sample, const Eigen::Vector3d& position) noexcept;
   void estimate_motion(const Eigen::Vector3d& position, double elapsed) noexcept;
   void feel_paper(double elapsed) noexcept;
@@ -43,6 +47,8 @@ class PenSensor {
   double max_speed_;    ///< [m/s, page]
   double period_;       ///< [s]
   bool counts_pauses_;  ///< for the account of energy
+  double max_standstill_;    ///< [s]
+  double min_force_change_;  ///< that moves any pen [N, device]
   VelocityEstimator velocity_;
   PenState pen_;
   bool has_sample_ = false;                  ///< a sample was accepted, and the pen has moved on from there
@@ -51,7 +57,13 @@ class PenSensor {
   int leaps_ = 0;                            ///< samples running that were much later than the one before
   std::int64_t unseen_ = 0;                  ///< ticks since then, without a good sample
   double above_for_ = 0.0;                   ///< how long a pen in contact has been above the paper [s]
-  std::optional<Eigen::Vector3d> rejected_;  ///< position of a sample just rejected as too far away
+  double unsure_for_;         ///< the force is not to follow the pen at once yet [s]
+  PenCourse believed_;        ///< of the pen
+  PenCourse doubted_;         ///< of samples that are not on it
+  bool is_in_doubt_ = false;  ///< the last sample was one of these
+  Eigen::Vector3d still_at_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [m, device]
+  Eigen::Vector3d still_force_ = Eigen::Vector3d::Zero();  ///< at work when the pen was first seen there [N, device]
+  double still_for_ = 0.0;                                 ///< since the force has changed from that [s]
 };
 
 }  // namespace calligraphy

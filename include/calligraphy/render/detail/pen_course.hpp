@@ -1,0 +1,38 @@
+// Where a pen can be next, from where it was.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/render/renderer_options.hpp>
+
+namespace calligraphy {
+
+/// Follows a pen from sample to sample. A hand can stop within a period but not set out or turn in no time: the pen is
+/// next on the way that its velocity takes it, within what an acceleration and the noise of the sensor add.
+class PenCourse {
+ public:
+  /// Lengths on the page are `scale` times those of the device.
+  PenCourse(const ForceLimits& limits, const Capabilities& device, double period, double scale);
+
+  /// The pen is there, at rest or at any speed.
+  void begin(const Eigen::Vector3d& position, bool at_rest) noexcept;
+  /// It was there `elapsed` after the sample before [s].
+  void add(const Eigen::Vector3d& position, double elapsed) noexcept;
+  /// Whether it can be there.
+  bool permits(const Eigen::Vector3d& position, double elapsed) const noexcept;
+
+ private:
+  double since_shown(double elapsed) const noexcept;
+
+  double max_speed_;         ///< [m/s, page]
+  double max_acceleration_;  ///< [m/s^2, page]
+  double noise_;             ///< of the way between two samples [m, page]
+  double period_;            ///< [s]
+  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+  double measured_over_;  ///< time of that velocity [s]
+  double waited_ = 0.0;   ///< since it was first seen there, on the way [s]
+};
+
+}  // namespace calligraphy
