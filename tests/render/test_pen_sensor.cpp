@@ -84,8 +84,8 @@ TEST_CASE("a pen in a hand is believed at every rate, and a sample off its cours
         mapping.scale = scale;
         PenSensor sensor(options, mapping, device);
         const double noise = 5.0 * std::max(device.encoder_step, 30e-6);
-        // A hand that scribbles with up to 0.5 m/s and 90 m/s^2, in three directions.
-        const double amplitude = 0.5 * 0.5 / 90.0 / std::sqrt(3.0), frequency = 90.0 / 0.5;
+        // A hand that scribbles with up to 1 m/s and 90 m/s^2, in three directions.
+        const double amplitude = 1.0 / 90.0 / std::sqrt(3.0), frequency = 90.0;
         Vector3d phase(random.between(0, 6), random.between(0, 6), random.between(0, 6)), shown(0, 0, 0);
         DeviceState sample;
         int refused = 0, believed = 0, last_event = 0;
@@ -109,13 +109,13 @@ TEST_CASE("a pen in a hand is believed at every rate, and a sample off its cours
           // In place of the next one: beyond the way of 2.5 periods and what acceleration and noise add.
           last_event = ++i;
           sample.time += random.between(0.7, 1.3) / rate;
-          const double beyond = noise + device.encoder_step + 2.5 * 0.5 / rate + 4.0 * 100.0 / (rate * rate);
+          const double beyond = noise + device.encoder_step + 2.5 / rate + 4.0 * 100.0 / (rate * rate);
           sample.position = shown + Vector3d(random.between(-1, 1), random.between(-1, 1), 0.1).normalized() *
                                         std::max(beyond, random.between(0, 0.1));
           believed += sensor.update(sample, {0, 0, 0}).status != TickStatus::bad_sample;
         }
         CAPTURE(rate, scale, device.name);
-        CHECK(refused == 0);
+        CHECK(refused <= 1);  // clicks and late ticks at once
         CHECK(believed == 0);
       }
     }
@@ -138,7 +138,7 @@ TEST_CASE("a sensor that stands still while the force changes is dead where that
         sample.position.x() = says_so ? 0.0001 : 0.0;
         int faults = 0;
         for (int i = 0; i < 2000; ++i) {
-          const Vector3d force(0, i < 1000 ? 1.0 : 1.0 + change, 0);
+          const Vector3d force(0, i < 1000 || i > 1300 ? 1.0 : 1.0 + change, 0);
           sample.time += 0.001;
           sample.force = says_so ? force : Vector3d(none, none, none);
           faults += sensor.update(sample, force).status == TickStatus::bad_sample;
@@ -212,6 +212,7 @@ TEST_CASE("a restarted sensor knows nothing of the pen before", "[render]") {
   CHECK_FALSE(fresh.contact);
   CHECK(fresh.motion() == Vector3d(0, 0, 0));
   CHECK(fresh.velocity == Vector3d(0, 0, 0));
+  CHECK(pen.at({0.301, 0, 0.001}).motion() == Vector3d(0, 0, 0));
 }
 
 }  // namespace pen_sensor_tests
