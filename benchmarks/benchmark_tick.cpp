@@ -145,6 +145,7 @@ void guidance_to_start(RendererOptions& options) { options.guidance.to_start = t
 void assist_policy(RendererOptions& options) { options.guidance.assist.enabled = true; }
 void energy_budget(RendererOptions& options) { options.energy.budget = 0.1; }
 void thermal_budget(RendererOptions& options) { options.limits.thermal_time_constant = 10.0; }
+void max_standstill(RendererOptions& options) { options.limits.max_standstill = 0.5; }
 void everything(RendererOptions& options) { options = RendererOptions::everything(written_page().capabilities); }
 BENCHMARK_CAPTURE(tick_with, nothing_added, nothing);
 BENCHMARK_CAPTURE(tick_with, friction, friction);
@@ -153,6 +154,7 @@ BENCHMARK_CAPTURE(tick_with, guidance_to_start, guidance_to_start);
 BENCHMARK_CAPTURE(tick_with, assist_policy, assist_policy);
 BENCHMARK_CAPTURE(tick_with, energy_budget, energy_budget);
 BENCHMARK_CAPTURE(tick_with, thermal_budget, thermal_budget);
+BENCHMARK_CAPTURE(tick_with, max_standstill, max_standstill);
 BENCHMARK_CAPTURE(tick_with, everything, everything);
 
 /// Cost of a call through the C interface: the whole page in one piece, alternating with C++.

@@ -33,6 +33,7 @@ class Devices(ProgramTest):
         phantom = ["phantom:none-such", "--wire-profile", "simulated"]
         self.assert_refused(1, ["devices", "watch", *phantom], "none-such")
         self.assert_refused(1, ["write", "一", "--out", "out", "--device", *phantom], "none-such")
+        self.assert_refused(2, ["write", "一", "--out", "out", "--device", "haply"], "haply", "docs/own-backend.md")
         self.assert_refused(1, ["devices", "watch", "openhaptics"], "libHD")
         self.assert_refused(1, ["write", "一", "--out", "out", "--device", "openhaptics"], "libHD")
 
