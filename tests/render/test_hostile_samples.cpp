@@ -248,6 +248,7 @@ TEST_CASE("a single sample far away is rejected, a second one near it accepted",
 
 TEST_CASE("a wrong sample, or noise of half a millimetre, changes the force on a pen at rest as docs/stability.md says",
           "[render]") {
+  constexpr int draws = calligraphy_test::sanitized ? 3 : 200;
   struct Row {
     double max_acceleration, rate, wrong_sample, noise;  // [N per tick]
   };
@@ -272,7 +273,7 @@ TEST_CASE("a wrong sample, or noise of half a millimetre, changes the force on a
           test.pen.at(test.place);
           return test.pen.max_step;
         };
-        for (int i = 0; i < 200; ++i) {
+        for (int i = 0; i < draws; ++i) {
           wrong_sample = std::max(wrong_sample, largest_step(1, [&] {
                                     const double share = random.next();  // most of them near
                                     return Vector3d(0.006 * share * share * among(1.0).normalized());
@@ -282,8 +283,11 @@ TEST_CASE("a wrong sample, or noise of half a millimetre, changes the force on a
       }
     }
     CAPTURE(row.max_acceleration, row.rate);
-    CHECK(wrong_sample == Approx(row.wrong_sample).epsilon(0.05));
-    CHECK(noise == Approx(row.noise).epsilon(0.05));
+    CHECK(wrong_sample < 1.05 * row.wrong_sample);
+    CHECK(noise < 1.05 * row.noise);
+    if (calligraphy_test::sanitized) continue;  // it draws too few to meet the worst
+    CHECK(wrong_sample > 0.95 * row.wrong_sample);
+    CHECK(noise > 0.95 * row.noise);
   }
 }
 
