@@ -435,7 +435,7 @@ def test_the_force_is_finite_for_any_times(times):
 
 def test_huge_values_and_arrays_are_passed_unchanged():
     positions = np.zeros((300_000, 3))
-    positions[-1] = 1e-3
+    positions[-1] = 1e-4
     ticks = cal.HapticRenderer(PAGE.characters, UPRIGHT, CAPABILITIES).trace(positions)
     assert len(ticks) == 300_000 and np.allclose(ticks["device_point"][-1], UPRIGHT.to_page(positions[-1]))
     rows = np.zeros(200_000, dtype=cal.sample_dtype)
