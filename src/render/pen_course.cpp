@@ -1,6 +1,7 @@
 #include <calligraphy/render/detail/pen_course.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "collision/length.hpp"
@@ -15,11 +16,23 @@ constexpr double min_encoder_step = 30e-6;
 /// |(2, 2, 2) + (2, 0, 0)| at most.
 constexpr double noise_in_steps = 5.0;
 
-/// A sensor whose own clock is a little slower than the loop repeats a sample now and then, unflagged [ticks].
-constexpr double max_repetition = 1.6;
+/// Of what is possible, what a hand does all the time.
+constexpr double usual_share = 0.6;
+
+/// A sensor whose own clock is a little slower than the loop repeats a sample now and then, unflagged; for so long
+/// a pen that moves may be shown where it was [ticks].
+constexpr double max_wait = 3.6;
 
 /// Ticks are late or early by so much where nobody says so, and intervals too short to tell a velocity [ticks].
 constexpr double jitter = 1.0, min_interval = 0.5;
+
+/// Square of the distance of the end of `way` from the segment to the end of `course`.
+double square_beside(const Eigen::Vector3d& way, const Eigen::Vector3d& course) noexcept {
+  const double length = dot(course, course);
+  const double share = length > 0.0 ? std::clamp(dot(way, course) / length, 0.0, 1.0) : 0.0;
+  const Eigen::Vector3d beside = way - course * share;
+  return dot(beside, beside);
+}
 
 }  // namespace
 
@@ -28,12 +41,13 @@ PenCourse::PenCourse(const ForceLimits& limits, const Capabilities& device, doub
       max_acceleration_(limits.max_acceleration * scale),
       noise_(noise_in_steps * std::max(device.encoder_step, min_encoder_step) * scale),
       period_(period),
-      measured_over_(period) {}
+      always_expected_(std::pow(std::min(usual_share * noise_, max_speed_ * period_), 2)),
+      took_(period) {}
 
 void PenCourse::begin(const Eigen::Vector3d& position, bool at_rest) noexcept {
   position_ = position;
-  velocity_.setZero();
-  measured_over_ = at_rest ? period_ : std::numeric_limits<double>::infinity();
+  way_.setZero();
+  took_ = at_rest ? period_ : std::numeric_limits<double>::infinity();
   waited_ = 0.0;
 }
 
@@ -42,30 +56,37 @@ double PenCourse::since_shown(double elapsed) const noexcept {
   return waited_ + (elapsed > 0.0 ? std::max(elapsed, min_interval * period_) : period_);
 }
 
-void PenCourse::add(const Eigen::Vector3d& position, double elapsed) noexcept {
-  const double passed = since_shown(elapsed);
-  const bool may_be_repeated = position == position_ && passed <= max_repetition * period_ && !velocity_.isZero(0.0);
-  waited_ = may_be_repeated ? passed : 0.0;
-  if (may_be_repeated) return;
-  velocity_ = shortened((position - position_) / passed, max_speed_);
-  measured_over_ = passed;
-  position_ = position;
+bool PenCourse::is_too_far(double square, double passed) const noexcept {
+  const double farthest = max_speed_ * std::max(passed, period_);
+  return square > farthest * farthest;
 }
 
-bool PenCourse::permits(const Eigen::Vector3d& position, double elapsed) const noexcept {
+void PenCourse::add(const Eigen::Vector3d& position, double elapsed) noexcept {
   const double passed = since_shown(elapsed);
   const Eigen::Vector3d way = position - position_;
   const double square = dot(way, way);
-  const double farthest = max_speed_ * std::max(passed, period_);
-  if (square > farthest * farthest) return false;
+  const bool may_be_repeated = square == 0.0 && passed <= max_wait * period_ && !way_.isZero(0.0);
+  waited_ = may_be_repeated ? passed : 0.0;
+  if (may_be_repeated) return;
+  way_ = is_too_far(square, passed) ? Eigen::Vector3d(0.0, 0.0, 0.0) : way;
+  took_ = passed;
+  position_ = position;
+}
+
+PenCourse::Place PenCourse::judge(const Eigen::Vector3d& position, double elapsed) const noexcept {
+  const double passed = since_shown(elapsed);
+  const Eigen::Vector3d way = position - position_;
+  const double square = dot(way, way);
+  if (square <= always_expected_) return Place::expected;  // most pens, most of the time
+  if (is_too_far(square, passed)) return Place::impossible;
   // Means over two intervals are those in their middles.
-  const double margin = noise_ + max_acceleration_ * 0.5 * (measured_over_ + passed) * passed;
-  if (square <= margin * margin) return true;
-  const Eigen::Vector3d expected = velocity_ * (passed + jitter * period_);
-  const double length = dot(expected, expected);
-  if (length == 0.0) return false;
-  const Eigen::Vector3d beside = way - expected * std::clamp(dot(way, expected) / length, 0.0, 1.0);
-  return dot(beside, beside) <= margin * margin;
+  const double margin = noise_ + max_acceleration_ * 0.5 * (took_ + passed) * passed;
+  const double usual = usual_share * margin;
+  if (square <= usual * usual) return Place::expected;
+  const Eigen::Vector3d per_second = way_ * (1.0 / took_);
+  if (square_beside(way, per_second * passed) <= usual * usual) return Place::expected;
+  const Eigen::Vector3d farthest = per_second * (passed + jitter * period_);
+  return square_beside(way, farthest) <= margin * margin ? Place::possible : Place::impossible;
 }
 
 }  // namespace calligraphy

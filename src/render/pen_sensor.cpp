@@ -15,9 +15,10 @@ constexpr double max_integration_time = 0.1;
 /// For how long the force is held while samples are stale [s].
 constexpr double max_hold_time = 4e-3;
 
-/// For how long after a bad sample, and at first, the force follows the pen by its rate alone: of a noisy sensor some
-/// samples are always near by chance [s].
-constexpr double max_unsure_time = 0.01;
+/// For how long after a gap or a bad sample, and at first, the force follows the pen by its rate alone: of a noisy sensor
+/// some samples are always near by chance, and the velocity is that of a pen that nobody saw. After one that only a jerk
+/// explains, as long as the velocity remembers it [s].
+constexpr double max_unsure_time = 0.01, jerk_time = 0.003;
 
 /// Hysteresis: the pen is above the paper once it is this far above it [m].
 constexpr double lift_height = 0.0005;
@@ -49,6 +50,7 @@ PenSensor::PenSensor(const RendererOptions& options, const MotionMapping& mappin
       max_speed_(options.limits.max_speed * mapping.scale),
       period_(1.0 / options.servo_rate),
       counts_pauses_(options.energy.limited()),
+      max_gap_(std::max(max_hold_time, min_pause * period_)),
       max_standstill_(options.limits.max_standstill),
       min_force_change_(unfelt_force + frictions * capabilities.coulomb_friction),
       velocity_(options.velocity_cutoff),
@@ -74,8 +76,9 @@ const PenState& PenSensor::update(const DeviceState& sample, const Eigen::Vector
   if (counts_pauses_) count_ticks(sample);
   pen_.status = accept(sample, sent);
   unseen_ = pen_.status == TickStatus::ok ? 0 : unseen_ + 1;
-  unsure_for_ = pen_.status == TickStatus::bad_sample ? max_unsure_time : std::max(0.0, unsure_for_ - period_);
   pen_.holds_force = pen_.status == TickStatus::stale && static_cast<double>(unseen_) * period_ <= max_hold_time;
+  const bool is_gap = pen_.status != TickStatus::ok && !pen_.holds_force;
+  unsure_for_ = is_gap ? max_unsure_time : std::max(0.0, unsure_for_ - period_);
   return pen_;
 }
 
@@ -108,6 +111,10 @@ TickStatus PenSensor::accept(const DeviceState& sample, const Eigen::Vector3d& s
   if (is_frozen(sample.position, is_finite(sample.force) ? sample.force : sent)) return TickStatus::bad_sample;
   if (!is_plausible(position, passed)) return TickStatus::bad_sample;
   if (!has_sample_) elapsed = period_;
+  if (has_sample_ && (passed > max_gap_ || static_cast<double>(unseen_) * period_ >= max_gap_)) {
+    velocity_.restart();  // of a way that nobody saw
+    unsure_for_ = max_unsure_time;
+  }
   move_device_point(sample, position);
   estimate_motion(position, elapsed);
   feel_paper(elapsed);
@@ -142,10 +149,14 @@ bool PenSensor::is_frozen(const Eigen::Vector3d& position, const Eigen::Vector3d
 bool PenSensor::is_plausible(const Eigen::Vector3d& position, double elapsed) noexcept {
   if (!has_sample_) {
     believed_.begin(position, false);
-  } else if (believed_.permits(position, elapsed)) {
+    return true;
+  }
+  const PenCourse::Place place = believed_.judge(position, elapsed);
+  if (place != PenCourse::Place::impossible) {
     believed_.add(position, elapsed);
+    if (place == PenCourse::Place::possible) unsure_for_ = std::max(unsure_for_, jerk_time);
   } else {
-    const bool agrees = is_in_doubt_ && doubted_.permits(position, period_);
+    const bool agrees = is_in_doubt_ && doubted_.judge(position, period_) != PenCourse::Place::impossible;
     if (is_in_doubt_) {
       doubted_.add(position, period_);
     } else {

@@ -1,6 +1,8 @@
 // Where a pen can be next, from where it was.
 #pragma once
 
+#include <cstdint>
+
 #include <Eigen/Core>
 
 #include <calligraphy/devices/capabilities.hpp>
@@ -12,6 +14,12 @@ namespace calligraphy {
 /// next on the way that its velocity takes it, within what an acceleration and the noise of the sensor add.
 class PenCourse {
  public:
+  enum class Place : std::uint8_t {
+    expected,   ///< as pens do all the time
+    possible,   ///< only a jerk would bring it there
+    impossible  ///< no hand would
+  };
+
   /// Lengths on the page are `scale` times those of the device.
   PenCourse(const ForceLimits& limits, const Capabilities& device, double period, double scale);
 
@@ -19,19 +27,21 @@ class PenCourse {
   void begin(const Eigen::Vector3d& position, bool at_rest) noexcept;
   /// It was there `elapsed` after the sample before [s].
   void add(const Eigen::Vector3d& position, double elapsed) noexcept;
-  /// Whether it can be there.
-  bool permits(const Eigen::Vector3d& position, double elapsed) const noexcept;
+  /// What to make of it there.
+  Place judge(const Eigen::Vector3d& position, double elapsed) const noexcept;
 
  private:
   double since_shown(double elapsed) const noexcept;
+  bool is_too_far(double square, double passed) const noexcept;
 
   double max_speed_;         ///< [m/s, page]
   double max_acceleration_;  ///< [m/s^2, page]
   double noise_;             ///< of the way between two samples [m, page]
   double period_;            ///< [s]
+  double always_expected_;   ///< a way that nothing makes unusual, squared [m^2]
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
-  double measured_over_;  ///< time of that velocity [s]
+  Eigen::Vector3d way_ = Eigen::Vector3d::Zero();  ///< that led there [m]
+  double took_;           ///< time of that way [s]
   double waited_ = 0.0;   ///< since it was first seen there, on the way [s]
 };
 
