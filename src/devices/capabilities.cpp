@@ -55,7 +55,9 @@ void validate(const Capabilities& capabilities) {
   const auto may_be_infinite = [&device](const char* name, double value, const char* unit) {
     require(value >= 0.0, device + name, value, unit, "at least 0");
   };
-  for (const double extent : capabilities.workspace) require_not_negative(device + "workspace", extent, "m");
+  for (const double extent : capabilities.workspace) {
+    require_within(device + "workspace", extent, "m", 0.0, 20.0, "it is in metres");
+  }
   may_be_infinite("peak force", capabilities.peak_force, "N");
   may_be_infinite("continuous force", capabilities.continuous_force, "N");
   may_be_infinite("usable stiffness", capabilities.usable_stiffness, "N/m");
@@ -63,13 +65,13 @@ void validate(const Capabilities& capabilities) {
   const double peak = capabilities.peak_force;
   require(peak == 0.0 || capabilities.force_step <= peak, device + "force step", capabilities.force_step, "N",
           "at most the peak force: a larger one would round every force to zero");
-  require_not_negative(device + "encoder step", capabilities.encoder_step, "m");
+  require_within(device + "encoder step", capabilities.encoder_step, "m", 0.0, 0.005, "it is in metres");
   require_within(device + "velocity cut-off", capabilities.velocity_cutoff, "Hz", 1.0, 1e6,
                  "a slower filter has no velocity of a stroke");
   require_not_negative(device + "update rate", capabilities.update_rate, "Hz");
-  require_not_negative(device + "apparent mass", capabilities.apparent_mass, "kg");
+  require_within(device + "apparent mass", capabilities.apparent_mass, "kg", 0.0, 20.0, "it is in kilograms");
   require_not_negative(device + "viscous friction", capabilities.viscous_friction, "N s/m");
-  require_not_negative(device + "Coulomb friction", capabilities.coulomb_friction, "N");
+  require_within(device + "Coulomb friction", capabilities.coulomb_friction, "N", 0.0, 1000.0, "it is in newtons");
   require_not_negative(device + "sample delay", capabilities.sample_delay, "ticks");
 
   const DeviceAxes& sensed = capabilities.sensed;

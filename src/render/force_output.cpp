@@ -70,7 +70,7 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
                    paper.viscous.z()};
 
   double max_force = thermal_.peak > 0.0 ? thermal_.max_force() : ForceLimiter::no_limit;
-  sent_.is_warm = max_force < limiter_.peak && dot(force, force) > max_force * max_force;
+  sent_.is_warm = thermal_.is_warm() && dot(force, force) > max_force * max_force;
   if (observes_energy_) {
     account(pen);
     force = affordable(pen, shortened(force, std::min(limiter_.peak, max_force)));

@@ -828,6 +828,9 @@ TEST_CASE("an unphysical profile or grip is rejected with name and value", "[dev
     CHECK(contains(profile_error([&](Capabilities& p) { p.usable_stiffness = bad; }), "usable stiffness"));
     CHECK(contains(profile_error([&](Capabilities& p) { p.update_rate = bad; }), "update rate"));
   }
+  CHECK(contains(profile_error([](Capabilities& p) { p.encoder_step = 0.055; }), "it is in metres"));
+  CHECK(contains(profile_error([](Capabilities& p) { p.workspace.x() = 160.0; }), "it is in metres"));
+  CHECK(contains(profile_error([](Capabilities& p) { p.apparent_mass = 45.0; }), "it is in kilograms"));
   CHECK(contains(profile_error([](Capabilities& p) { p.sample_delay = -1; }), "sample delay = -1"));
   CHECK(profile_error([](Capabilities& p) { p.usable_stiffness = infinity; }).empty());
   for (const int bad : {-1, 100'001}) {

@@ -102,5 +102,5 @@ def finish(kind: Any) -> None:
         for name in {"__eq__", "__repr__", "__reduce__", "__copy__", "__deepcopy__"} - ({"__repr__"} & set(own)):
             setattr(kind, name, vars(Struct)[name])
         kind.__hash__ = None
-    # Pickle protocols 0 and 1 bypass __new__, on which pybind11 aborts.
+    # Protocols 0 and 1 of pickle bypass __new__, without which the extension aborts.
     kind.__reduce_ex__ = lambda self, protocol: object.__reduce_ex__(self, max(protocol, 2))

@@ -38,7 +38,9 @@ constexpr bool has_event(TickEvent events, TickEvent event) noexcept {
 enum class TickStatus : std::uint8_t {
   ok,           ///< a fresh sample
   stale,        ///< no new sample, as the device says: the force is held for 4 ms, then ramps down to zero
-  bad_sample,   ///< not finite, or where no pen can be, or of a sensor that stands still: the force ramps down to zero
+  /// Not finite, or where no hand can be after the last ones (ForceLimits::max_acceleration and max_speed: a pen that
+  /// jumps), or of a sensor that stands still (max_standstill). The force ramps down to zero.
+  bad_sample,
   device_fault,  ///< reported by the device: the force ramps down to zero
   /// 50 samples running, each later than the one before by 300 periods of the servo rate: their times are not in
   /// seconds, or the loop is not at its rate. Dampers know no velocity then: the force ramps down to zero.

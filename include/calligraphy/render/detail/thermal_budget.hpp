@@ -22,6 +22,8 @@ struct ThermalBudget {
   double max_force() const noexcept {
     return std::min(peak, continuous * (1.0 + std::sqrt(std::max(1.0 - heat, 0.0))));
   }
+  /// The heat takes a tenth or more of what cold motors may do.
+  bool is_warm() const noexcept { return peak > 0.0 && max_force() < 0.9 * std::min(peak, 2.0 * continuous); }
   /// Accounts for `force` [N] held for `seconds`.
   void held(double force, double seconds) noexcept {
     if (seconds != last_seconds) {
