@@ -15,9 +15,9 @@ constexpr double max_integration_time = 0.1;
 /// For how long the force is held while samples are stale [s].
 constexpr double max_hold_time = 4e-3;
 
-/// For how long after a gap or a bad sample, and at first, the force follows the pen by its rate alone: of a noisy sensor
-/// some samples are always near by chance, and the velocity is that of a pen that nobody saw. After one that only a jerk
-/// explains, as long as the velocity remembers it [s].
+/// For how long after a gap or a bad sample, and at first, the force follows the pen by its rate alone: of a noisy
+/// sensor some samples are always near by chance, and the velocity is that of a pen that nobody saw. After one that only
+/// a jerk explains, as long as the velocity remembers it [s].
 constexpr double max_unsure_time = 0.01, jerk_time = 0.003;
 
 /// Hysteresis: the pen is above the paper once it is this far above it [m].
@@ -144,8 +144,8 @@ bool PenSensor::is_frozen(const Eigen::Vector3d& position, const Eigen::Vector3d
   return still_for_ > max_standstill_;
 }
 
-/// A pen cannot jump: a sample off its course is rejected. Once those that are make a course of their own the pen really
-/// is elsewhere, and did not move there, or nobody knows where it was.
+/// A pen cannot jump: a sample off its course is rejected. Once those that are make a course of their own the pen
+/// really is elsewhere, and did not move there, or nobody knows where it was.
 bool PenSensor::is_plausible(const Eigen::Vector3d& position, double elapsed) noexcept {
   if (!has_sample_) {
     believed_.begin(position, false);

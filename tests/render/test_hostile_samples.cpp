@@ -260,7 +260,8 @@ TEST_CASE("a wrong sample, or noise of half a millimetre, changes the force on a
     for (Capabilities device : device_profiles()) {
       for (const bool everything : {false, true}) {
         device.update_rate = row.rate;
-        RendererOptions options = everything ? RendererOptions::everything(device) : RendererOptions::for_device(device);
+        RendererOptions options = RendererOptions::for_device(device);
+        if (everything) options = RendererOptions::everything(device);
         options.energy.budget = infinity;  // it would take from the force
         options.limits.max_acceleration = row.max_acceleration;
         MidStroke test(options, device);

@@ -88,12 +88,15 @@ TEST_CASE("a pen in a hand is believed at every rate, and a sample off its cours
         const double amplitude = 1.0 / 90.0 / std::sqrt(3.0), frequency = 90.0;
         Vector3d phase(random.between(0, 6), random.between(0, 6), random.between(0, 6)), shown(0, 0, 0);
         DeviceState sample;
-        int refused = 0, believed = 0, last_event = 0;
+        int refused = 0, believed = 0, last_event = 0, repeat = 0;
         for (int i = 0; i < 2000; ++i) {
           sample.time = i / rate;
           const double time = sample.time + random.between(-0.15, 0.15) / rate;  // a loop that does not know it is late
           const bool may_err = i > last_event + 5;
-          const bool repeats = may_err && random.next() < 0.05;  // unflagged
+          // Unflagged; at high rates a velocity is mostly the encoder's and says little of where the pen is after three.
+          if (may_err && random.next() < 0.05) repeat = static_cast<int>(random.between(1.0, rate > 1000.0 ? 2.0 : 4.0));
+          const bool repeats = repeat > 0 && i > 0;
+          if (repeats) --repeat;
           const Vector3d place = amplitude * (frequency * time + phase.array()).sin();
           if (!repeats) {
             const int clicking = static_cast<int>(random.between(0, 30));
@@ -116,7 +119,7 @@ TEST_CASE("a pen in a hand is believed at every rate, and a sample off its cours
           believed += sensor.update(sample, {0, 0, 0}).status != TickStatus::bad_sample;
         }
         CAPTURE(rate, scale, device.name);
-        CHECK(refused <= 1);  // all of it at once, and a click
+        CHECK(refused <= 2);  // of 2,000, where all of it comes at once, and a click
         CHECK(believed == 0);
       }
     }

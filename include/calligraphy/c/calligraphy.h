@@ -397,7 +397,7 @@ typedef struct calligraphy_renderer_options {
   double limit_normal_rate;            ///< of the force along the normal; may be infinite [N/s]
   double limit_thermal_time_constant;  ///< of the motors; 0: not considered [s]
   double limit_max_speed;              ///< a sample that implies a faster pen is a fault [m/s, device]
-  double limit_max_acceleration;       ///< likewise, off the way that the last ones lead; may be infinite [m/s^2, device]
+  double limit_max_acceleration;       ///< likewise, off the way that the last ones lead; infinite: any [m/s^2, device]
   double limit_max_standstill;         ///< a sensor is dead that stands still for longer while its force changes [s]
 
   double energy_budget;   ///< maximum net energy given since the start; infinite: no limit [J]
