@@ -177,6 +177,23 @@ TEST_CASE("after a gap the pen has not moved as far as the force is concerned, a
   CHECK(next.velocity_change().norm() > 0.0);
 }
 
+TEST_CASE("a pen unseen for more than 4 ms has no velocity, and the force follows it by its rate for 10 ms", "[render]") {
+  for (const bool flagged : {false, true}) {
+    Sampled pen;
+    for (int i = 0; i < 20; ++i) pen.at({0, 0, 0});
+    if (flagged) {
+      for (int i = 0; i < 5; ++i) pen.with(DeviceStatus::stale);
+    } else {
+      pen.sample.time += 0.005;
+    }
+    CHECK(pen.at({0.005, 0, 0}).velocity == Vector3d(0, 0, 0));
+    int unsure = 1;
+    while (pen.at({0.005 + 1e-5 * unsure, 0, 0}).motion() == Vector3d(0, 0, 0)) ++unsure;
+    CAPTURE(flagged);
+    CHECK(unsure == Approx(10).margin(1));
+  }
+}
+
 TEST_CASE("a bounce is contact but not on the paper, and what is higher or longer is neither", "[render]") {
   const RendererOptions options;  // lifted at 3 mm, or after 50 ms above 0.5 mm
   Sampled pen(options);

@@ -273,6 +273,7 @@ TEST_CASE("a pen pressed for a minute: warm motors reduce the force to the conti
     rest(pen, place, 500);
     const HapticTick& tick = renderer.last();
     CHECK(pen.max_force == Approx(2.0 * 0.88).epsilon(0.03));
+    CHECK(tick.hint != WritingHint::warm_motors);  // they are not yet
     double last = tick.force.norm(), max_rise = 0.0, max_fall = 0.0, max_turn = 0.0, hottest = 0.0;
     constexpr int seconds = calligraphy_test::sanitized ? 40 : 60;
     for (int i = 0; i < 1000 * seconds; ++i) {

@@ -110,6 +110,7 @@ TEST_CASE("over any window the RMS force is at most the continuous one, plus wha
 TEST_CASE("motors at rest cool by exp(-t / tau), and the permitted force returns", "[render]") {
   ThermalBudget budget = omni();
   saturated(budget, 60.0);
+  CHECK(budget.is_warm());
   const double hot = budget.heat;
   double last = budget.max_force();
   bool rises = true;
@@ -119,6 +120,9 @@ TEST_CASE("motors at rest cool by exp(-t / tau), and the permitted force returns
     last = budget.max_force();
   }
   CHECK(budget.heat == Approx(hot * std::exp(-0.5)));
+  budget.held(0.0, 20.0);
+  CHECK_FALSE(budget.is_warm());  // 3 % less than cold motors may do
+  budget.heat = hot * std::exp(-0.5);
   CHECK(rises);
   CHECK(last == Approx(0.88 * (1.0 + std::sqrt(1.0 - std::exp(-0.5)))).epsilon(1e-3));
 }
