@@ -1,7 +1,6 @@
 #include <calligraphy/render/detail/pen_course.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "collision/length.hpp"
@@ -41,7 +40,6 @@ PenCourse::PenCourse(const ForceLimits& limits, const Capabilities& device, doub
       max_acceleration_(limits.max_acceleration * scale),
       noise_(noise_in_steps * std::max(device.encoder_step, min_encoder_step) * scale),
       period_(period),
-      always_expected_(std::pow(std::min(usual_share * noise_, max_speed_ * period_), 2)),
       took_(period) {}
 
 void PenCourse::begin(const Eigen::Vector3d& position, bool at_rest) noexcept {
@@ -77,7 +75,6 @@ PenCourse::Place PenCourse::judge(const Eigen::Vector3d& position, double elapse
   const double passed = since_shown(elapsed);
   const Eigen::Vector3d way = position - position_;
   const double square = dot(way, way);
-  if (square <= always_expected_) return Place::expected;  // most pens, most of the time
   if (is_too_far(square, passed)) return Place::impossible;
   // Means over two intervals are those in their middles.
   const double margin = noise_ + max_acceleration_ * 0.5 * (took_ + passed) * passed;

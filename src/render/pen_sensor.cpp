@@ -108,7 +108,10 @@ TickStatus PenSensor::accept(const DeviceState& sample, const Eigen::Vector3d& s
   // A clock that stands or runs backwards must not turn a small motion into a fast one.
   const double passed = sample.time - time_;
   double elapsed = passed > period_ ? passed : period_;
-  if (is_frozen(sample.position, is_finite(sample.force) ? sample.force : sent)) return TickStatus::bad_sample;
+  if (max_standstill_ < std::numeric_limits<double>::infinity() &&
+      is_frozen(sample.position, is_finite(sample.force) ? sample.force : sent)) {
+    return TickStatus::bad_sample;
+  }
   if (!is_plausible(position, passed)) return TickStatus::bad_sample;
   if (!has_sample_) elapsed = period_;
   if (has_sample_ && (passed > max_gap_ || static_cast<double>(unseen_) * period_ >= max_gap_)) {
@@ -133,7 +136,6 @@ bool PenSensor::is_leaping(double time) noexcept {
 /// A force that changes moves the pen in any hand, if only by a step of the encoder: a position that stays the same to
 /// the last bit meanwhile is that of a sensor that has died.
 bool PenSensor::is_frozen(const Eigen::Vector3d& position, const Eigen::Vector3d& force) noexcept {
-  if (max_standstill_ == std::numeric_limits<double>::infinity()) return false;
   if (position != still_at_) {
     still_at_ = position;
     still_force_ = force;

@@ -126,6 +126,21 @@ TEST_CASE("a pen in a hand is believed at every rate, and a sample off its cours
   }
 }
 
+TEST_CASE("a tick of a nanosecond gives a pen no velocity that makes a jump plausible", "[render]") {
+  RendererOptions options;
+  options.servo_rate = 1000.0;
+  PenSensor sensor(options, {}, {});
+  DeviceState sample;
+  const auto status_at = [&](double x, double elapsed) {
+    sample.position.x() = x;
+    sample.time += elapsed;
+    return sensor.update(sample, {0, 0, 0}).status;
+  };
+  for (int i = 0; i < 20; ++i) status_at(0.0, 0.001);
+  CHECK(status_at(1e-4, 1e-9) == TickStatus::ok);
+  CHECK(status_at(4.5e-3, 0.001) == TickStatus::bad_sample);
+}
+
 TEST_CASE("a sensor that stands still while the force changes is dead where that is asked for, and lives once it moves",
           "[render]") {
   Capabilities device;

@@ -40,7 +40,7 @@ struct Capabilities {
   DeviceAxes sensed;       ///< axes that read() measures
   DeviceAxes driven;       ///< axes along which write() exerts a force
   Eigen::Vector3d workspace = Eigen::Vector3d::Zero();  ///< extent along each device axis, centred on zero [m]
-  double peak_force = 0.0;                              ///< maximum force; 0: unknown, no limit, and no renderer [N]
+  double peak_force = 0.0;                              ///< maximum force; 0: unknown, no limit; a renderer needs it [N]
   double continuous_force = 0.0;                        ///< force that it sustains indefinitely; 0: unknown [N]
   double usable_stiffness = 0.0;                        ///< maximum stiffness reported by users of the device [N/m]
   double force_step = 0.0;    ///< forces are rounded to multiples of it (DAC); 0: unknown, or not quantised [N]

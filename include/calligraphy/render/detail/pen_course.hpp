@@ -38,11 +38,10 @@ class PenCourse {
   double max_acceleration_;  ///< [m/s^2, page]
   double noise_;             ///< of the way between two samples [m, page]
   double period_;            ///< [s]
-  double always_expected_;   ///< a way that nothing makes unusual, squared [m^2]
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d way_ = Eigen::Vector3d::Zero();  ///< that led there [m]
-  double took_;           ///< time of that way [s]
-  double waited_ = 0.0;   ///< since it was first seen there, on the way [s]
+  double took_;                                    ///< time of that way [s]
+  double waited_ = 0.0;                            ///< since it was first seen there, on the way [s]
 };
 
 }  // namespace calligraphy

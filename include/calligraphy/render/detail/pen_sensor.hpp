@@ -47,8 +47,8 @@ class PenSensor {
   double max_speed_;    ///< [m/s, page]
   double period_;       ///< [s]
   bool counts_pauses_;  ///< for the account of energy
-  double max_gap_;           ///< a pen is unseen for longer only where samples are missing [s]
-  double max_standstill_;    ///< [s]
+  double max_gap_;      ///< a pen is unseen for longer only where samples are missing [s]
+  double max_standstill_;  ///< [s]
   double min_force_change_;  ///< that moves any pen [N, device]
   VelocityEstimator velocity_;
   PenState pen_;
