@@ -67,6 +67,14 @@ StrokeContact ActiveStroke::nearest(const Point& tip, const StrokeOptions& optio
   return contact;
 }
 
+StrokePlace ActiveStroke::at(double arc) const noexcept {
+  int index = 0;
+  while (index + 1 < element_count() && arc > part(index).last_arc) ++index;
+  const StrokeElement& element = part(index).element;
+  const double t = element.parameter_at(arc - part(index).first_arc);
+  return {element.point(t), element.tangent(t), element.curvature(t)};
+}
+
 void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
   reload();
   active_ = nearest.element;

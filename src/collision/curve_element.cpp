@@ -177,6 +177,17 @@ Point CurveElement::tangent(double t) const noexcept {
   return Point::Zero();
 }
 
+double CurveElement::curvature(double t) const noexcept {
+  Point first = Point::Zero(), second = Point::Zero();  // derivatives, per size
+  for (int k = degree; k >= 1; --k) {
+    second = second * t + first;
+    first = first * t + k * coefficients[static_cast<std::size_t>(k - 1)];
+  }
+  const double slope = first.norm();
+  if (!(slope > vanishing_slope)) return 0.0;
+  return (first.x() * second.y() - first.y() * second.x()) / (slope * slope * slope * size);
+}
+
 double CurveElement::arc_length(double t) const noexcept {
   const double scaled = t > 0.0 ? std::min(t, 1.0) * arc_intervals : 0.0;
   const int interval = std::min(static_cast<int>(scaled), arc_intervals - 1);

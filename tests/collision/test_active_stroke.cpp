@@ -3,17 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/model/character_list.hpp>
 
 #include "../allocation_counter.hpp"
+#include "../hard_cases.hpp"
 #include "../pen_path.hpp"
+#include "../reference_curve.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::beside;
+using calligraphy_test::draw_line;
+using calligraphy_test::hard_curves;
+using calligraphy_test::HardCurve;
 using calligraphy_test::path_of;
+using calligraphy_test::ReferenceCurve;
+using calligraphy_test::size_of;
 using calligraphy_test::typical_character;
 
 namespace {
@@ -181,6 +189,80 @@ TEST_CASE("a pen that is put down anywhere on a stroke is found there, and follo
   }
   CHECK(worst < 1e-4 * active.length());  // of the arc length on curves
   CHECK(worst_back < 1e-9);
+}
+
+TEST_CASE("the point at an arc length is as far along the polyline of a stroke", "[collision]") {
+  for (const HardCurve& hard : hard_curves()) {
+    const std::size_t count = hard.control_points.size();
+    const double size = size_of(hard.control_points);
+    if (count < 4 || size == 0.0) continue;
+    // Between two lines, so that elements before and after count too.
+    std::vector<Point> points = hard.control_points;
+    points.insert(points.begin(), points.front() - Point(size, 0.0));
+    points.push_back(points.back() + Point(0.0, size));
+    const std::vector<double> factors(4, 1.0);
+    ActiveStroke active;
+    active.load({&typical_stroke(1), "LCL", static_cast<int>(count) - 1, points, factors}, {Point::Zero(), 1.0});
+
+    const ReferenceCurve curve(hard.control_points);
+    std::vector<Point> path = {points.front()};
+    draw_line(path, points[1], 0.01 * size);
+    for (int i = 1; i <= 2000; ++i) {
+      const auto at = curve.point(i / 2000.0L);
+      path.emplace_back(static_cast<double>(at[0]), static_cast<double>(at[1]));
+    }
+    draw_line(path, points.back(), 0.01 * size);
+    double way = 0.0, worst = 0.0;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      way += (path[i] - path[i - 1]).norm();
+      worst = std::max(worst, (active.at(way).point - path[i]).norm());
+    }
+    INFO(hard.name << ": " << worst / size);
+    CHECK(worst < 3e-3 * size);  // of the arc length of an element
+  }
+}
+
+TEST_CASE("where the pen is nearest, the stroke has the tangent and the curvature of the contact", "[collision]") {
+  for (const TypicalStroke& type : typical_strokes()) {
+    const Character character = typical_character(type.id);
+    const Stroke stroke = strokes(character)[0];
+    ActiveStroke active;
+    active.load(stroke, place);
+    double off = 0.0, turned = 0.0, bent = 0.0;
+    for (const Point& tip : path_of(stroke, place, pen_step)) {
+      const StrokeContact contact = active.nearest(tip, {});
+      const double t = contact.closest.parameter;
+      if (t < 1e-9 || t > 1.0 - 1e-9) continue;  // rounding decides on which side of a corner
+      const StrokePlace there = active.at(contact.arc);
+      const double curvature = active.element(contact.element).curvature(t);
+      off = std::max(off, (there.point - contact.closest.point).norm());
+      turned = std::max(turned, (there.tangent - contact.closest.tangent).norm());
+      bent = std::max(bent, std::abs(there.curvature - curvature));
+    }
+    INFO("typical stroke " << type.id);
+    CHECK(off < 1e-12);
+    CHECK(turned < 1e-9);
+    CHECK(bent < 1e-6);
+  }
+}
+
+TEST_CASE("a place on a stroke is clamped to its ends, and at a corner still before it", "[collision]") {
+  const Character character = typical_character(16);
+  const Stroke stroke = strokes(character)[0];
+  ActiveStroke active;
+  active.load(stroke, place);
+  const Point corner = place.to_page(stroke.control_points[1]);
+  const Point before = (corner - active.start()).normalized(), after = (active.end() - corner).normalized();
+  const double to_corner = active.element(0).length();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const std::size_t allocations = calligraphy_test::allocations();
+  for (const double arc : {-infinity, -1.0, 0.0, std::nan("")}) CHECK(active.at(arc).point == active.start());
+  for (const double arc : {1.0, infinity}) CHECK((active.at(arc).point - active.end()).norm() < 1e-15);
+  CHECK((active.at(to_corner).point - corner).norm() < 1e-15);
+  CHECK((active.at(to_corner).tangent - before).norm() < 1e-12);
+  CHECK((active.at(std::nextafter(to_corner, 1.0)).tangent - after).norm() < 1e-12);
+  CHECK(active.at(to_corner).curvature == 0.0);
+  CHECK(calligraphy_test::allocations() == allocations);
 }
 
 TEST_CASE("the attraction factor is linear in arc length, and as printed it steps at each feature point",

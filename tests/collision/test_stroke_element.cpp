@@ -83,6 +83,53 @@ TEST_CASE("the tangent does not flip next to a vanishing derivative", "[collisio
   }
 }
 
+TEST_CASE("the curvature is the turn of the derivative per arc length, and finite everywhere", "[collision]") {
+  constexpr double h = 1e-6;
+  for (const HardCurve& curve : hard_curves()) {
+    const StrokeElement element = prepare_element(curve.control_points);
+    const ReferenceCurve reference(curve.control_points);
+    const double size = element.size();
+    double worst = 0.0;
+    bool is_finite = true;
+    for (int i = 0; i <= 1000; ++i) {
+      const double t = i / 1000.0, curvature = element.curvature(t);
+      is_finite = is_finite && std::isfinite(curvature);
+      const auto a = reference.derivative(t - h), b = reference.derivative(t + h);
+      const double arc = 2.0 * h * element.derivative(t).norm();
+      if (!(arc > 0.1 * h * size)) continue;
+      const double turn = static_cast<double>(std::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]));
+      worst = std::max(worst, size * std::abs(curvature - turn / arc) / (1.0 + size * std::abs(turn / arc)));
+    }
+    INFO(curve.name);
+    CHECK(is_finite);
+    CHECK(worst < 1e-6);
+  }
+}
+
+TEST_CASE("the curvature of a quarter of a circle is 1/r, to the left", "[collision]") {
+  constexpr double r = 0.02, k = 0.5522847498307936 * r;
+  const StrokeElement left = element_through({{r, 0}, {r, k}, {k, r}, {0, r}});
+  const StrokeElement right = element_through({{0, r}, {k, r}, {r, k}, {r, 0}});
+  double worst = 0.0, turn = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = (i + 0.5) / 1000.0;
+    worst = std::max(worst, std::abs(r * left.curvature(t) - 1.0));
+    turn += left.curvature(t) * left.derivative(t).norm() / 1000.0;
+    CHECK(right.curvature(1.0 - t) == Approx(-left.curvature(t)));
+  }
+  CHECK(left.curvature(0.0) == Approx(2.0 / 3.0 * (r - k) / (k * k)));  // of any cubic, from its control points
+  CHECK(worst < 0.022);                                                 // least at the ends, by the line above
+  CHECK(turn == Approx(std::acos(0.0)));
+}
+
+TEST_CASE("the curvature of a line and of a point, and where the derivative vanishes, is 0", "[collision]") {
+  CHECK(element_through({{0, 0}, {3, 4}}).curvature(0.5) == 0.0);
+  CHECK(element_through({{3, 4}, {3, 4}, {3, 4}}).curvature(0.5) == 0.0);
+  CHECK(element_through({{0, 0}, {0, 0}, {1, 1}, {1, 0}}).curvature(0.0) == 0.0);
+  CHECK(element_through({{0, 0}, {1, 1}, {0, 1}, {1, 0}}).curvature(0.5) == 0.0);  // a cusp
+  CHECK(element_through({}).curvature(0.5) == 0.0);
+}
+
 TEST_CASE("arc length is exact at its nodes and within its bound between them", "[collision]") {
   for (const HardCurve& curve : hard_curves()) {
     const StrokeElement element = prepare_element(curve.control_points);

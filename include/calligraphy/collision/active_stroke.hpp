@@ -29,6 +29,13 @@ struct StrokeContact {
   bool finished = false;        ///< the last feature point has been passed
 };
 
+/// A place on a stroke.
+struct StrokePlace {
+  Point point = Point::Zero();    ///< [m, page]
+  Point tangent = Point::Zero();  ///< unit vector in writing direction; zero for a stroke that is a point
+  double curvature = 0.0;         ///< positive where the stroke bends to the left, see StrokeElement::curvature() [1/m]
+};
+
 /// One stroke of the page, so that the others take no time. load() comes first, and nothing else allocates.
 class ActiveStroke {
  public:
@@ -51,6 +58,10 @@ class ActiveStroke {
   /// Position of a pen at `tip` [m, page] that is not writing the stroke: its nearest point on the whole of it, without
   /// effect on its progress, and without its attraction factor.
   StrokeContact nearest(const Point& tip, const StrokeOptions& options) const noexcept;
+
+  /// The place at an arc length from the start [m], which is clamped to the stroke (NaN counts as 0). At a corner it is
+  /// the end of the element before. Does not allocate.
+  StrokePlace at(double arc) const noexcept;
 
   /// First point of the stroke [m, page].
   const Point& start() const noexcept { return parts_.front().element.origin(); }

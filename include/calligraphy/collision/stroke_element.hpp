@@ -33,6 +33,9 @@ struct StrokeElement {
   Point derivative(double t) const noexcept { return curve() ? curve()->derivative(t) : line()->edge; }
   /// Unit tangent in writing direction, also where dB/dt vanishes; zero for a point.
   Point tangent(double t) const noexcept { return curve() ? curve()->tangent(t) : line()->direction; }
+  /// Curvature, positive where the element bends to the left; grows without bound towards a cusp, and is 0 where dB/dt
+  /// vanishes and on a line [1/m].
+  double curvature(double t) const noexcept { return curve() ? curve()->curvature(t) : 0.0; }
   /// Arc length from 0 to t, which is clamped to [0, 1] (NaN counts as 0); exact on a line, accurate to 3e-3 of the
   /// size on a curve (1e-4 on typical strokes) [m].
   double arc_length(double t) const noexcept {

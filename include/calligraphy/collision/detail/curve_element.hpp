@@ -50,6 +50,8 @@ struct CurveElement {
   Point derivative_per_size(double t) const noexcept;
   /// Unit tangent in writing direction, also where dB/dt vanishes.
   Point tangent(double t) const noexcept;
+  /// Positive where the curve bends to the left; 0 where dB/dt vanishes [1/m].
+  double curvature(double t) const noexcept;
   /// Arc length from 0 to t, accurate to 3e-3 of the size (1e-4 on typical strokes); t is clamped to [0, 1], NaN counts
   /// as 0 [m].
   double arc_length(double t) const noexcept;
