@@ -31,14 +31,9 @@ PlacedCharacter placed_character(const Case& shown) {
 }
 
 Point middle_line(const PlacedCharacter& placed, int stroke, double progress) {
-  const auto elements = place_elements(strokes(placed.character)[static_cast<std::size_t>(stroke)], placed.placement);
-  double left = 0.0;
-  for (const StrokeElement& element : elements) left += progress * element.length();
-  for (const StrokeElement& element : elements) {
-    if (left <= element.length()) return element.point(element.parameter_at(left));
-    left -= element.length();
-  }
-  return elements.back().point(1.0);
+  ActiveStroke active;
+  active.load(strokes(placed.character)[static_cast<std::size_t>(stroke)], placed.placement);
+  return active.at(progress * active.length()).point;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include <calligraphy/collision/stroke_element.hpp>
+#include <calligraphy/collision/active_stroke.hpp>
 
 #include "base/require.hpp"
 #include "model/random_points.hpp"
@@ -47,27 +47,16 @@ std::vector<std::vector<Point>> elements_of(const Stroke& stroke, double em) {
   return elements;
 }
 
-std::vector<Point> path_along(const std::vector<std::vector<Point>>& elements, const StrokeQueryOptions& options,
-                              RandomPoints& random) {
-  std::vector<StrokeElement> prepared;
-  double length = 0.0;
-  for (const auto& element : elements) {
-    prepared.push_back(prepare_element(element));
-    length += prepared.back().length();
-  }
-  const Stray stray(random, length, options.wobble);
+std::vector<Point> path_along(const Stroke& stroke, const StrokeQueryOptions& options, RandomPoints& random) {
+  ActiveStroke active;
+  active.load(stroke, {Point::Zero(), options.em});
+  const Stray stray(random, active.length(), options.wobble);
   const double step = options.speed / options.rate;
   std::vector<Point> path;
-  double before = 0.0;  // the arc length of the elements already written
-  std::size_t element = 0;
   for (int tick = 0;; ++tick) {
     const double arc = tick * step;
-    if (arc > length) return path;
-    while (element + 1 < prepared.size() && arc - before > prepared[element].length()) {
-      before += prepared[element++].length();
-    }
-    const StrokeElement& active = prepared[element];
-    path.push_back(active.point(active.parameter_at(arc - before)) + stray.at(arc));
+    if (arc > active.length()) return path;
+    path.push_back(active.at(arc).point + stray.at(arc));
   }
 }
 
@@ -84,7 +73,7 @@ std::vector<StrokeQueries> stroke_queries(std::span<const Character> characters,
     for (const Stroke& stroke : strokes(character)) {
       StrokeQueries& queries = drawn.emplace_back();
       queries.elements = elements_of(stroke, options.em);
-      queries.path = path_along(queries.elements, options, random);
+      queries.path = path_along(stroke, options, random);
     }
   }
   return drawn;

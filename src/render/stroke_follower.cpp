@@ -67,16 +67,7 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
 
   row_.clear();
   row_.reserve(static_cast<std::size_t>(count_) + 1);
-  int element = 0;
-  double before = 0.0;
-  for (int i = 0; i < count_; ++i) {
-    const double arc = i * spacing_;
-    while (element + 1 < stroke.element_count() && arc > before + stroke.element(element).length()) {
-      before += stroke.element(element++).length();
-    }
-    const StrokeElement& on = stroke.element(element);
-    row_.push_back({on.point(on.parameter_at(arc - before)), Point(1.0, 0.0)});
-  }
+  for (int i = 0; i < count_; ++i) row_.push_back({stroke.at(i * spacing_).point, Point(1.0, 0.0)});
   row_.push_back(row_.back());
   const auto point = [&](int i) { return row(std::clamp(i, 0, count_ - 1)).point; };
   const int apart =
