@@ -17,11 +17,11 @@ ServoOptions virtual_time(double rate) {
 
 ForceLaw law_of(ServoObject& servo) {
   HapticRenderer& renderer = servo.renderer->renderer;
-  ForceLaw law = renderer;
-  law.ask = [&servo, &renderer](const DeviceState& sample) -> Eigen::Vector3d {
+  ForceLaw law = [&servo, &renderer](const DeviceState& sample) -> Eigen::Vector3d {
     servo.has_updated = true;
     return renderer.update(sample).force;
   };
+  law.rate = renderer.options().servo_rate;
   return law;
 }
 

@@ -86,7 +86,7 @@ Servo::Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options)
       velocity_(device.capabilities().velocity_cutoff) {
   const double peak = device.capabilities().peak_force;
   if (peak > 0.0) peak_force_ = peak;  // 0 means unknown
-  if (!law_.ask) throw ValueError("servo loop: the force law is empty");
+  if (!law_) throw ValueError("servo loop: the force law is empty");
 }
 
 void Servo::step(double now) noexcept {
@@ -212,7 +212,7 @@ bool Servo::ask(const DeviceState& sample, Eigen::Vector3d& force) noexcept {
   const Servo* const outer = std::exchange(asking, this);  // a force law may step another servo
   bool answered = true;
   try {
-    force = law_.ask(sample);
+    force = law_(sample);
   } catch (...) {
     answered = false;
   }

@@ -776,6 +776,33 @@ TEST_CASE("a servo ticks at the rate asked for or at the device's, and refuses a
   CHECK_THROWS_WITH(Servo(device, law, asked), "servo loop: rate = 2000 Hz, but the force law is made for 800 Hz");
 }
 
+TEST_CASE("a force law is any function that returns a vector, and its copies ask the same one", "[servo]") {
+  struct Spring {
+    Eigen::Vector3d operator()(const DeviceState& sample) { return stiffness * sample.position; }
+    double stiffness = 3.0;
+  };
+  Eigen::Vector3d (*const pointer)(const DeviceState&) = [](const DeviceState& sample) -> Eigen::Vector3d {
+    return 3.0 * sample.position;
+  };
+  const Eigen::Vector3d lasting(0.0, 3.0, 6.0);
+  const std::vector<ForceLaw> laws = {
+      Spring(), pointer, std::function<Eigen::Vector3d(const DeviceState&)>(pointer),
+      [](const DeviceState& sample) noexcept -> Eigen::Vector3d { return 3.0 * sample.position; },
+      [&lasting](const DeviceState&) -> const Eigen::Vector3d& { return lasting; }};
+  DeviceState sample;
+  sample.position = {0.0, 1.0, 2.0};
+  for (ForceLaw law : laws) {
+    law.rate = 500.0;
+    ForceLaw copy = law;
+    CHECK(copy(sample) == lasting);
+    const ForceLaw moved = std::move(copy);
+    CHECK(moved(sample) == lasting);
+    CHECK(moved.rate == 500.0);
+  }
+  CHECK_FALSE(ForceLaw());
+  CHECK_FALSE(ForceLaw(std::function<Eigen::Vector3d(const DeviceState&)>()));
+}
+
 TEST_CASE("with ramp times of zero the force changes immediately", "[servo]") {
   ServoOptions options;
   options.ramp_down = options.ramp_up = 0.0;

@@ -3,10 +3,14 @@
 
 #include <array>
 #include <atomic>
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
+#include <calligraphy/base/detail/returned.hpp>
 #include <calligraphy/devices/detail/duration_histogram.hpp>
 #include <calligraphy/devices/detail/force_guard.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
@@ -15,29 +19,52 @@
 
 namespace calligraphy {
 
+/// What can be asked for forces as a HapticRenderer is.
+template <class Type>
+concept ForceRenderer = requires(Type& renderer, const DeviceState& sample) {
+  Eigen::Vector3d(renderer.update(sample).force);
+  double(renderer.options().servo_rate);
+};
+
 /// Maps a sample to the force in device axes [N]. Called once per fresh sample, never with one that is stale,
 /// uncalibrated, faulty or not finite: position, velocity and force of the sample are numbers, whatever the device
 /// measures. It must neither allocate, lock, log nor throw. A servo survives a force law that does, but ramps the force
 /// down when it throws or takes too long.
-struct ForceLaw {
+class ForceLaw {
+ public:
   ForceLaw() = default;
-  /// A function of the sample, for any rate.
+  /// A function of the sample, for any rate. It returns Eigen::Vector3d, or a reference to one that outlives the call;
+  /// nothing that only converts to it, such as an Eigen expression, which may refer to temporaries of the function.
   template <class Law>
-  requires(std::is_invocable_r_v<Eigen::Vector3d, Law&, const DeviceState&> && !std::is_same_v<Law, ForceLaw>)
-      ForceLaw(Law law)
-      : ask(std::move(law)) {}
-  /// A HapticRenderer, or what has its update() and options(): must outlive the servo, whose rate must be its own.
-  template <class Renderer>
-  requires requires(Renderer& renderer, const DeviceState& sample) {
-    Eigen::Vector3d(renderer.update(sample).force);
-    double(renderer.options().servo_rate);
+  requires(!ForceRenderer<Law> && !std::derived_from<std::remove_cvref_t<Law>, ForceLaw>) ForceLaw(Law&& law) {
+    using Force = Returned<std::decay_t<Law>&, const DeviceState&>;
+    constexpr bool is_force = std::is_same_v<Force, Eigen::Vector3d>;
+    constexpr bool converts = std::is_convertible_v<Force, Eigen::Vector3d>;  // as Eigen's expressions do
+    static_assert(converts,
+                  "a force law is a function Eigen::Vector3d(const DeviceState&), or a renderer that is not const");
+    static_assert(is_force || !converts,
+                  "a force law returns Eigen::Vector3d: write -> Eigen::Vector3d after the lambda's parameters, since "
+                  "an Eigen expression refers to temporaries that are gone");
+    if constexpr (is_force) ask_ = std::forward<Law>(law);
   }
-  ForceLaw(Renderer& renderer)
-      : ask([&renderer](const DeviceState& sample) { return Eigen::Vector3d(renderer.update(sample).force); }),
-        rate(renderer.options().servo_rate) {}
+  /// A HapticRenderer, or what has its update() and options(): must outlive the servo, whose rate must be its own.
+  template <ForceRenderer Renderer>
+  ForceLaw(Renderer&& renderer)
+      : rate(renderer.options().servo_rate),
+        ask_([&renderer](const DeviceState& sample) { return Eigen::Vector3d(renderer.update(sample).force); }) {
+    static_assert(std::is_lvalue_reference_v<Renderer>,
+                  "a renderer must outlive the servo: pass a variable, neither a temporary nor std::move() of one");
+  }
 
-  std::function<Eigen::Vector3d(const DeviceState&)> ask;  ///< the force at a sample [N, device]
-  double rate = 0.0;                                       ///< at which it must be asked; 0: any [Hz]
+  /// The force at a sample [N, device].
+  Eigen::Vector3d operator()(const DeviceState& sample) const { return ask_(sample); }
+  /// Whether there is a function or a renderer to ask.
+  explicit operator bool() const noexcept { return static_cast<bool>(ask_); }
+
+  double rate = 0.0;  ///< at which it must be asked; 0: any [Hz]
+
+ private:
+  std::function<Eigen::Vector3d(const DeviceState&)> ask_;
 };
 
 /// Rate and safety limits of a servo loop.
