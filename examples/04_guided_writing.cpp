@@ -37,7 +37,7 @@ class User {
 
 int main() {
   install_emergency_stop();  // no force is left behind when this program ends, however it ends
-  const PracticePage page = lay_out(std::vector{built_in_characters().at(U'十')}).front();
+  const PracticePage page = lay_out({built_in_characters().at(U'十')}).front();
   const MotionMapping mapping = upright_page(page.width, page.height);
 
   // A simulated pen that is pulled to where the program moves the pointer: here as `User` does, in an application as

@@ -7,7 +7,7 @@
 
 int main() {
   using namespace calligraphy;
-  const PracticePage page = lay_out(std::vector{built_in_characters().at(U'永')}).front();
+  const PracticePage page = lay_out({built_in_characters().at(U'永')}).front();
   SessionOptions options;
   options.device = device_profile("desktop");
   options.renderer = RendererOptions::for_device(options.device);

@@ -101,6 +101,14 @@ TEST_CASE("a page as large as its squares and gaps holds them, and one a million
   }
 }
 
+TEST_CASE("characters in braces are laid out as a list of them is", "[practice]") {
+  const std::vector<Character> list = characters("永北");
+  const PageLayout layout{0.05, 0.05, 0.04, 0.004};
+  const auto pages = lay_out({list[0], list[1]}, layout);
+  REQUIRE(pages.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) CHECK(page_id(pages[i]) == page_id(lay_out(list, layout)[i]));
+}
+
 TEST_CASE("an empty text gives no page", "[practice]") { CHECK(lay_out({}).empty()); }
 
 TEST_CASE("a layout that cannot hold a character is rejected", "[practice]") {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -38,5 +39,9 @@ std::uint32_t page_id(const PracticePage& page);
 /// Lays the characters out from left to right and top to bottom on as many pages as needed, the rows centred on each.
 /// @throws ValueError when a length is not a positive number or no square fits
 std::vector<PracticePage> lay_out(std::span<const Character> characters, const PageLayout& layout = {});
+/// The same for characters in braces: lay_out({character}).
+inline std::vector<PracticePage> lay_out(std::initializer_list<Character> characters, const PageLayout& layout = {}) {
+  return lay_out(std::span(characters.begin(), characters.size()), layout);
+}
 
 }  // namespace calligraphy
