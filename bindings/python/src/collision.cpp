@@ -79,6 +79,16 @@ auto at_parameters(Function function) {
   };
 }
 
+std::variant<double, Doubles> curvature(const StrokeElement& self, const ArrayLike& t) {
+  bool one = false;
+  const Doubles parameters = one_or_many(t, "t", 0, one);
+  if (one) return self.curvature(*parameters.data());
+  Doubles result(parameters.size());
+  std::transform(parameters.data(), parameters.data() + parameters.size(), result.mutable_data(),
+                 [&](double each) { return self.curvature(each); });
+  return result;
+}
+
 }  // namespace
 
 void add_collision(py::module_& module) {
@@ -109,6 +119,7 @@ void add_collision(py::module_& module) {
       .def("point", at_parameters(&StrokeElement::point), "t"_a, "+ (2,) at one parameter, (N, 2) at N.")
       .def("derivative", at_parameters(&StrokeElement::derivative), "t"_a, "+ (2,) at one parameter, (N, 2) at N.")
       .def("tangent", at_parameters(&StrokeElement::tangent), "t"_a, "+ (2,) at one parameter, (N, 2) at N.")
+      .def("curvature", &curvature, "t"_a, "+ A float at one parameter, (N,) at N.")
       .def("arc_length", &StrokeElement::arc_length, "t"_a)
       .def("parameter_at", &StrokeElement::parameter_at, "arc_length"_a)
       .def("__repr__", [](const StrokeElement& self) {

@@ -273,6 +273,7 @@ TAKERS = {
     "nearest_point": ("queries", (None, 2), lambda a: cal.nearest_point(CUBIC, a).point),
     "StrokeElement.point": ("t", (None,), lambda a: cal.StrokeElement(CUBIC).point(a)),
     "StrokeElement.tangent": ("t", (None,), lambda a: cal.StrokeElement(CUBIC).tangent(a)),
+    "StrokeElement.curvature": ("t", (None,), lambda a: cal.StrokeElement(CUBIC).curvature(a)),
     "trace": ("positions", (None, 3), traced),
     "trace at times": ("times", (4,), lambda a: traced(np.zeros((4, 3)), a)),
     "HapticDevice.write": ("force", (3,), felt),

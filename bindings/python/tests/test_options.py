@@ -53,6 +53,11 @@ def test_tangents_and_derivatives_point_along_the_curve():
     assert np.allclose(element.derivative(found.parameter), (ahead - behind) / 2e-6, atol=1e-4)
     along = (ahead - behind) / np.linalg.norm(ahead - behind, axis=1)[:, None]
     assert inside.sum() > 100 and np.allclose(found.tangent[inside], along[inside], atol=1e-4)
+    t = np.linspace(0, 1, 10_001)
+    turn = np.gradient(np.unwrap(np.arctan2(*element.tangent(t).T[::-1])), t)
+    bend = element.curvature(t) * np.linalg.norm(element.derivative(t), axis=1)
+    assert np.allclose(bend[1:-1], turn[1:-1], atol=1e-4)
+    assert element.curvature(0.3) == element.curvature([0.3])[0]
     assert element.parameter_at(element.arc_length(0.3)) == pytest.approx(0.3, abs=0.01)
 
 
