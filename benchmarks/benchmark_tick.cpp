@@ -140,7 +140,7 @@ void tick_with(benchmark::State& state, void (*add)(RendererOptions&)) {
 }
 void nothing(RendererOptions&) {}
 void friction(RendererOptions& options) { options.paper.friction.coefficient = 0.15; }
-void saturating_guidance(RendererOptions& options) { options.guidance.law = GuidanceLaw::saturating; }
+void saturate(RendererOptions& options) { options.guidance.force = saturating_guidance; }
 void guidance_to_start(RendererOptions& options) { options.guidance.to_start = true; }
 void assist_policy(RendererOptions& options) { options.guidance.assist.enabled = true; }
 void energy_budget(RendererOptions& options) { options.energy.budget = 0.1; }
@@ -149,7 +149,7 @@ void max_standstill(RendererOptions& options) { options.limits.max_standstill = 
 void everything(RendererOptions& options) { options = RendererOptions::everything(written_page().capabilities); }
 BENCHMARK_CAPTURE(tick_with, nothing_added, nothing);
 BENCHMARK_CAPTURE(tick_with, friction, friction);
-BENCHMARK_CAPTURE(tick_with, saturating_guidance, saturating_guidance);
+BENCHMARK_CAPTURE(tick_with, saturating_guidance, saturate);
 BENCHMARK_CAPTURE(tick_with, guidance_to_start, guidance_to_start);
 BENCHMARK_CAPTURE(tick_with, assist_policy, assist_policy);
 BENCHMARK_CAPTURE(tick_with, energy_budget, energy_budget);

@@ -99,13 +99,26 @@ std::vector<Pen> read_pens(const std::string& file) {
   return pens;
 }
 
+/// The guidance law of everything(), for trees where it is an object and for those before.
+template <class Options>
+void saturate(Options& options) {
+  const auto all = Options::everything(device());
+  if constexpr (requires { options.guidance.force; }) {
+    options.guidance.force = all.guidance.force;
+  } else if constexpr (requires { options.guidance.law; }) {
+    options.guidance.law = all.guidance.law;
+  } else {
+    options.guidance = all.guidance;
+  }
+}
+
 /// One name of `options_of`, for trees whose options are in groups and for those before.
 template <class Options>
 bool set(Options& options, const std::string& name) {
   if constexpr (requires { options.guidance.stiffness; }) {
     if (name == "exact") options.nearest.method = NearestPointMethod::exact;
     if (name == "friction") options.paper.friction.coefficient = 0.15;
-    if (name == "saturating") options.guidance.law = GuidanceLaw::saturating;
+    if (name == "saturating") saturate(options);
     if (name == "guide_to_start") options.guidance.to_start = true;
     if (name == "assist") options.guidance.assist.enabled = true;
     if (name == "budget") options.energy.budget = 0.1;
@@ -113,7 +126,7 @@ bool set(Options& options, const std::string& name) {
   } else {
     if (name == "exact") options.stroke.nearest.method = NearestPointMethod::exact;
     if (name == "friction") options.friction.coefficient = 0.15;
-    if (name == "saturating") options.guidance = GuidanceLaw::saturating;
+    if (name == "saturating") saturate(options);
     if (name == "guide_to_start") options.guide_to_start = true;
     if (name == "assist") options.assist.enabled = true;
     if (name == "budget") options.energy_budget = 0.1;

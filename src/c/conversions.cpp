@@ -1,5 +1,6 @@
 #include "conversions.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -14,10 +15,10 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 template <class C, class Options, class Exchange>
 void each_option(C& c, Options& o, const Exchange& exchange) {
   const auto choice = [&](const char* name, auto& here, auto& there, auto last) { exchange(name, here, there, last); };
-  choice("rules", c.rules, o.rules, Rules::wang2006_signs);
+  choice("rules", c.rules, o.rules, Rules::wang2006);
   choice("stiffness_check", c.stiffness_check, o.stiffness_check, StiffnessCheck::off);
   choice("nearest_method", c.nearest_method, o.nearest.method, NearestPointMethod::wang2006);
-  choice("guidance_law", c.guidance_law, o.guidance.law, GuidanceLaw::saturating);
+  exchange("guidance_law", c.guidance_law, o.guidance.force);
 
   exchange(c.nearest_tolerance, o.nearest.tolerance);
   exchange(c.nearest_samples, o.nearest.samples);
@@ -29,7 +30,6 @@ void each_option(C& c, Options& o, const Exchange& exchange) {
   exchange(c.paper_stiffness, o.paper.stiffness);
   exchange(c.paper_damping, o.paper.damping);
   exchange(c.paper_onset, o.paper.onset);
-  exchange(c.paper_solid, o.paper.solid);
   exchange(c.paper_friction_coefficient, o.paper.friction.coefficient);
   exchange(c.paper_friction_stiffness, o.paper.friction.stiffness);
   exchange(c.paper_friction_damping, o.paper.friction.damping);
@@ -73,10 +73,16 @@ void each_option(C& c, Options& o, const Exchange& exchange) {
   exchange(c.energy_max_gap, o.energy.max_gap);
 }
 
+/// By calligraphy_guidance_law.
+constexpr GuidanceFactory::Make* guidance_laws[] = {linear_guidance, saturating_guidance, printed_guidance};
+
 struct FromC {
   void operator()(double here, double& there) const { there = here; }
   void operator()(std::int32_t here, int& there) const { there = here; }
   void operator()(std::int32_t here, bool& there) const { there = here != 0; }
+  void operator()(const char* name, std::int32_t here, GuidanceFactory& there) const {
+    there = guidance_laws[enumeration(name, here, CALLIGRAPHY_GUIDANCE_WANG2006)];
+  }
   template <class Choice>
   void operator()(const char* name, std::int32_t here, Choice& there, Choice last) const {
     there = enumeration(name, here, last);
@@ -88,6 +94,10 @@ struct ToC {
   template <class Value>
   void operator()(std::int32_t& here, Value there) const {
     here = static_cast<std::int32_t>(there);
+  }
+  void operator()(const char*, std::int32_t& here, const GuidanceFactory& there) const {
+    here = static_cast<std::int32_t>(std::ranges::find_if(guidance_laws, [&](auto law) { return there.is(law); }) -
+                                     guidance_laws);
   }
   template <class Choice>
   void operator()(const char*, std::int32_t& here, Choice there, Choice) const {

@@ -13,7 +13,7 @@ RecordedSample sample_of(const calligraphy_tick& tick) {
   sample.force = Eigen::Vector3d(tick.page_force);
   sample.state = enumeration("state", tick.state, InteractionState::writing);
   sample.events = static_cast<TickEvent>(tick.events);
-  sample.status = enumeration("status", tick.status, TickStatus::bad_clock);
+  sample.status = enumeration("status", tick.status, TickStatus::bad_law);
   sample.character = tick.character;
   sample.stroke = tick.stroke;
   return sample;

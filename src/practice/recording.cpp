@@ -29,7 +29,7 @@ constexpr std::size_t chunk = 1 << 16;                ///< bytes given to the st
 constexpr std::array states = {InteractionState::separation, InteractionState::adjusting, InteractionState::calibration,
                                InteractionState::writing};
 constexpr std::array statuses = {TickStatus::ok, TickStatus::stale, TickStatus::bad_sample, TickStatus::device_fault,
-                                 TickStatus::bad_clock};
+                                 TickStatus::bad_clock, TickStatus::bad_law};
 constexpr int all_events = 2 * static_cast<int>(TickEvent::page_finished) - 1;
 
 std::string header() {
@@ -98,7 +98,7 @@ class RecordingParser : private LineReader {
         states, [](auto each) { return to_string(each); }, "SS, AS, CS or WS");
     sample.events = static_cast<TickEvent>(next_integer(all_events));
     sample.status = next_of(
-        statuses, [](auto each) { return to_string(each); }, "ok, stale, bad_sample, device_fault or bad_clock");
+        statuses, [](auto each) { return to_string(each); }, "ok, stale, bad_sample, device_fault, bad_clock or bad_law");
     sample.character = next_integer(std::numeric_limits<int>::max());
     sample.stroke = next_integer(std::numeric_limits<int>::max());
     sample.tick_ns = next_number<float>();

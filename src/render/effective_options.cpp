@@ -1,12 +1,69 @@
 #include <calligraphy/render/detail/effective_options.hpp>
 
+#include <cmath>
+
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/render/detail/energy_observer.hpp>
 #include <calligraphy/render/detail/prepared_page.hpp>
 
 #include "base/require.hpp"
 #include "exact_pen.hpp"
 
 namespace calligraphy {
+namespace {
+
+/// Of a law that must have one and whose options give none, as in RendererOptions::everything() [J].
+constexpr double presumed_budget = 0.1;
+
+constexpr double max_stated_stiffness = 1e8;  ///< as good as no limit [N/m]
+constexpr double max_stated_power = 10.0;     ///< [W]
+
+/// A law of which nothing is known, or which leads the pen on, has a budget of energy where one can be kept.
+void put_on_account(EffectiveOptions& effective, const Capabilities& capabilities) {
+  EnergyOptions& energy = effective.options.energy;
+  const GuidanceTraits& traits = effective.traits;
+  if (energy.limited() || !(std::isnan(traits.stiffness) || traits.power > 0.0)) return;
+  const std::string law = "the guidance law \"" + traits.name + "\" states " +
+                          (traits.power > 0.0 ? "a power" : "no stiffness");
+  if (capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= EnergyObserver::max_delay) {
+    energy.budget = presumed_budget;
+    effective.clipped.push_back("energy.budget = " + number_text(presumed_budget) + " J: " + law);
+  } else if (!capabilities.simulated) {
+    throw ValueError(law + ", so it needs a budget of energy, which the device " + device_label(capabilities) +
+                     " does not permit: its apparent mass is " + number_text(capabilities.apparent_mass) +
+                     " kg, its delay " + number_text(capabilities.sample_delay) + " ticks");
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<GuidanceLaw> guidance_law(EffectiveOptions& effective, const Capabilities& capabilities) {
+  const double limit = std::min(effective.guidance_limit, max_stated_stiffness);
+  const GuidanceOptions& options = effective.options.guidance;
+  std::unique_ptr<GuidanceLaw> law = options.force({options, effective.guidance_stiffness(effective.max_attraction),
+                                                    limit, 1.0 / effective.options.servo_rate});
+  if (!law) throw ValueError("guidance.force: made no law");
+  GuidanceTraits& traits = effective.traits = law->traits();
+  const std::string name = "guidance law \"" + traits.name + "\": ";
+  require_within(name + "power", traits.power, "W", 0.0, max_stated_power);
+  if (std::isnan(traits.stiffness)) {
+    effective.law_stiffness = limit;
+  } else {
+    require_within(name + "stiffness", traits.stiffness, "N/m", 0.0, max_stated_stiffness);
+    effective.law_stiffness = std::min(traits.stiffness, limit);
+  }
+  if (traits.stiffness > limit) {
+    Message message;
+    message << name << "stiffness = " << traits.stiffness << " N/m is above " << limit
+            << " N/m, the maximum on the device " << device_label(capabilities) << " with this damping";
+    if (effective.options.stiffness_check != StiffnessCheck::clip) throw ValueError(message.str());
+    effective.law_share = limit / traits.stiffness;
+    message << ": the spring is scaled by " << effective.law_share;
+    effective.clipped.push_back(message.str());
+  }
+  put_on_account(effective, capabilities);
+  return law;
+}
 
 double servo_rate(const RendererOptions& options, const Capabilities& capabilities) {
   const bool is_asked_for = options.servo_rate != 0.0;

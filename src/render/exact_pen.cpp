@@ -49,7 +49,7 @@ void require_exact_pen_taken(const std::vector<PlacedCharacter>& page, const Ren
   const StrokeTolerances& tolerances = options.tolerances;
   if (is_preset(tolerances) || tolerances.coverage == 0.0) return;
   for (std::size_t i = 0; i < page.size(); ++i) {
-    StrokeSequencer sequencer({page[i]}, options, capabilities, mapping);
+    StrokeSequencer sequencer({page[i]}, options, capabilities, mapping, true);
     int number = 0;
     for (const Stroke& stroke : strokes(page[i].character)) {
       ++number;

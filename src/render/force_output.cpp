@@ -62,17 +62,23 @@ void ForceOutput::restart() noexcept {
 
 const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& guidance,
                                      const PaperForce& paper) noexcept {
-  Eigen::Vector3d force(guidance.total.x() + paper.friction.x(), guidance.total.y() + paper.friction.y(), paper.normal);
+  Eigen::Vector3d force;
+  force.head<2>() = guidance.total + paper.friction;
+  force.z() = paper.normal + guidance.normal;
   if (pen.holds_force) force = sent_.page;
   // Where nothing was sent, nothing is held, the brake of an exhausted budget included.
   const bool is_trusted = pen.status == TickStatus::ok || (pen.holds_force && norm(force) > 0.0);
-  sent_.viscous = {paper.viscous.x() + guidance.viscous.x(), paper.viscous.y() + guidance.viscous.y(),
-                   paper.viscous.z()};
+  sent_.viscous.head<2>() = paper.viscous.head<2>() + guidance.viscous;
+  sent_.viscous.z() = paper.viscous.z();
 
-  double max_force = thermal_.peak > 0.0 ? thermal_.max_force() : ForceLimiter::no_limit;
-  sent_.is_warm = thermal_.is_warm() && dot(force, force) > max_force * max_force;
+  double max_force = ForceLimiter::no_limit;
+  if (thermal_.peak > 0.0) {
+    max_force = thermal_.max_force();
+    sent_.is_warm = thermal_.is_warm() && dot(force, force) > max_force * max_force;
+  }
   if (observes_energy_) {
     account(pen);
+    if (guidance.power > 0.0) energy_.earn(guidance.power * period_);
     force = affordable(pen, shortened(force, std::min(limiter_.peak, max_force)));
     max_force = std::min(max_force, energy_.max_force());
   }

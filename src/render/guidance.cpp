@@ -2,36 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <calligraphy/render/force_terms.hpp>
 
 namespace calligraphy {
 namespace {
 
-/// What is left of the damping where no spring acts, as long as the pen touches the paper: a pen that nobody holds does
-/// not coast on.
-constexpr double unguided_damping = 0.15;
-
 /// Guidance to the start stops short of the start along the stroke by this share of the tolerance.
 constexpr double unguided_start = 0.5;
 
-/// A pen this far from the normal of its closest point is beyond an end: as a share of the distance, plus a slack [m].
-constexpr double oblique_share = 0.2, oblique_slack = 1e-5;
-
-/// The part of a velocity that guidance along `way` [m] damps: across the stroke. Along it the pen is free, except
-/// where guidance leads that way too: before the start and at a corner that is not passed.
-Point damped_part(const Point& velocity, const Point& way, const Point& tangent) noexcept {
-  const double along = std::abs(way.dot(tangent));
-  const double oblique = std::min(1.0, along / (oblique_share * way.norm() + oblique_slack));
-  return velocity - (1.0 - oblique) * velocity.dot(tangent) * tangent;
-}
-
 }  // namespace
 
-Guidance::Guidance(const EffectiveOptions& effective)
+Guidance::Guidance(const EffectiveOptions& effective, std::unique_ptr<GuidanceLaw> law)
     : effective_(effective),
       period_(1.0 / effective.options.servo_rate),
-      assistance_(effective.options.guidance.assist) {
+      assistance_(effective.options.guidance.assist),
+      law_(std::move(law)) {
+  input_.damping = effective.options.guidance.damping;
+  input_.max_stiffness = effective.guidance_limit;
+  input_.dt = period_;
   const double fade_in = effective.options.guidance.fade_in;
   fade_step_ = fade_in > 0.0 ? 1.0 / (fade_in * effective.options.servo_rate) : 1.0;
 }
@@ -39,6 +30,7 @@ Guidance::Guidance(const EffectiveOptions& effective)
 /// No force, and none to withdraw.
 void Guidance::release() noexcept {
   force_.attraction = force_.wrong_way = force_.viscous = force_.total = Point::Zero();
+  force_.normal = force_.power = 0.0;
   released_.clear();
 }
 
@@ -46,10 +38,11 @@ void Guidance::restart() noexcept {
   release();
   force_.assistance = 1.0;
   assistance_.restart();
-  guided_ = false;
+  guided_ = begun_ = false;
+  error_ = nullptr;
 }
 
-const GuidanceForce& Guidance::update(const PenState& pen, const WriterState& writer, const Point& sent) noexcept {
+const GuidanceForce& Guidance::update(PenState& pen, const WriterState& writer, const Point& sent) noexcept {
   if (pen.status != TickStatus::ok) {
     if (!pen.holds_force) release();
     return force_;
@@ -61,57 +54,103 @@ const GuidanceForce& Guidance::update(const PenState& pen, const WriterState& wr
   force_.assistance = assistance_.factor();
   pull(pen, writer);
   force_.total = faded(pen, writer, sent);
+  if (pen.status != TickStatus::ok) {  // the law has failed: with the next force guidance sets in anew
+    release();
+    fade_ = 0.0;
+  }
   return force_;
 }
 
-/// The three terms.
-void Guidance::pull(const PenState& pen, const WriterState& writer) noexcept {
+/// The three terms, and what the law adds to the paper's.
+void Guidance::pull(PenState& pen, const WriterState& writer) noexcept {
+  constexpr TickEvent attempts = TickEvent::contact | TickEvent::stroke_finished | TickEvent::stroke_abandoned;
   force_.attraction = force_.wrong_way = force_.viscous = Point::Zero();
+  force_.normal = force_.power = 0.0;
   if (writer.phase == WritingPhase::lifted || writer.phase == WritingPhase::page_written) return;
+  if (has_event(writer.events, attempts)) begun_ = false;
   const GuidanceOptions& options = effective_.options.guidance;
-  const bool saturating = options.law == GuidanceLaw::saturating;
-  const bool writing = writer.state == InteractionState::writing;
   const StrokeContact& contact = writer.contact;
-  const Point tip = pen.tip.head<2>();
-  Point way = Point::Zero();  // where guidance leads
-  Point tangent = Point::Zero();
-  double share = 0.0;       // of guidance, in the stiffness and the damping
-  double resistance = 0.0;  // to writing backwards, likewise
-  if (writing) {
-    way = contact.closest.point - tip;
-    // A writer who began the stroke beyond its start may end it as far beyond its end.
-    if (contact.finished) way -= std::min(0.0, way.dot(contact.closest.tangent)) * contact.closest.tangent;
-    tangent = contact.closest.tangent;
-    resistance = writer.guided ? contact.weight : 0.0;
-    share = force_.assistance * (saturating ? 1.0 : resistance);
-  } else {
-    if (writer.guided) {
-      way = way_to_start(writer);
-      tangent = writer.direction;
-      share = force_.assistance;
-    }
-    if (writer.rests) resistance = contact.weight;
-  }
-  const double stiffness = effective_.guidance_stiffness(writer.attraction);
-  force_.attraction = attraction_force(stiffness * share, tip, tip + way, effective_.options.rules);
-  if (writer.attraction < 1.0) share *= writer.attraction;
+  input_.tip = pen.tip.head<2>();
+  input_.velocity = pen.velocity.head<2>();
+  input_.writing = writer.state == InteractionState::writing;
+  double resistance = 0.0;  // to writing backwards, in the stiffness and the damping
+  if (input_.writing ? writer.guided : writer.rests) resistance = contact.weight;
   const double slack = options.wrong_way_slack * writer.em;
   const bool resisted = resistance > 0.0 && contact.backwards > slack;
   if (resisted) {
     force_.wrong_way = resistance * wrong_way_force(options.wrong_way_stiffness, options.wrong_way_limit, slack,
                                                     contact.backwards, contact.closest.tangent);
   }
-  if (saturating) {
-    const double linear = force_.attraction.norm();
-    force_.attraction = saturated_force(force_.attraction, options.limit);
-    // Across the stroke the stiffness falls with the square of what this falls by.
-    if (linear > 0.0) share *= std::sqrt(force_.attraction.norm() / linear);
+  input_.resistance = resisted ? resistance : 0.0;
+  if (!writer.guided) {
+    force_.viscous = resisted ? guidance_damper(input_, 0.0)
+                              : Point(-input_.damping * (unguided_damping * input_.velocity));
+    return;
   }
-  const Point velocity = pen.velocity.head<2>();
-  // Resistance to writing backwards is not weakened by assistance, nor is its damper.
-  const Point guided =
-      resisted ? Point(std::max(share, resistance) * velocity) : Point(share * damped_part(velocity, way, tangent));
-  force_.viscous = -options.damping * (guided + unguided_damping * (velocity - guided));
+  lead(writer);
+  if (effective_.traits.sees_stroke) show_stroke(pen, writer);
+  const GuidanceTerms terms = ask(pen, writer);
+  force_.attraction = effective_.law_share * terms.spring;
+  force_.viscous = terms.damper;
+  force_.normal = terms.normal;
+  force_.power = effective_.traits.power;
+}
+
+/// Tells the law where it leads.
+void Guidance::lead(const WriterState& writer) noexcept {
+  const StrokeContact& contact = writer.contact;
+  if (input_.writing) {
+    input_.tangent = contact.closest.tangent;
+    input_.weight = contact.weight;
+    input_.way = contact.closest.point - input_.tip;
+    // A writer who began the stroke beyond its start may end it as far beyond its end.
+    if (contact.finished) input_.way -= std::min(0.0, input_.way.dot(input_.tangent)) * input_.tangent;
+  } else {
+    input_.tangent = writer.direction;
+    input_.weight = 1.0;
+    input_.way = way_to_start(writer);
+  }
+  input_.target = input_.tip + input_.way;
+  input_.attraction = writer.attraction;
+  input_.stiffness = effective_.guidance_stiffness(writer.attraction);
+  input_.share = effective_.traits.lets_go ? force_.assistance * input_.weight : force_.assistance;
+}
+
+/// What not every law asks for.
+[[gnu::noinline]] void Guidance::show_stroke(const PenState& pen, const WriterState& writer) noexcept {
+  StrokeContact contact = writer.contact;
+  if (!input_.writing) {
+    contact = {};
+    contact.closest.point = writer.geometry->start();
+    contact.closest.distance = writer.to_start.norm();
+  }
+  const StrokeElement& element = writer.geometry->element(contact.element);
+  input_.nearest = contact.closest.point;
+  input_.distance = contact.closest.distance;
+  input_.curvature = element.curvature(contact.closest.parameter);
+  input_.feature = element.point(1.0);
+  input_.arc = contact.arc;
+  input_.left = writer.geometry->length() - contact.arc;
+  input_.backwards = contact.backwards;
+  input_.to_start = writer.to_start;
+  input_.depth = pen.penetration;
+  input_.em = writer.em;
+}
+
+/// A law that throws, or answers with what is no force, is none.
+GuidanceTerms Guidance::ask(PenState& pen, const WriterState& writer) noexcept {
+  try {
+    if (!begun_) law_->begin(*writer.geometry);
+    begun_ = true;
+    const GuidanceTerms terms = law_->force(input_);
+    const Point force = terms.spring + terms.damper;
+    const double sum = force.x() + force.y() + terms.normal;
+    if (sum - sum == 0.0) return terms;
+  } catch (...) {
+    if (!error_) error_ = std::current_exception();
+  }
+  pen.status = TickStatus::bad_law;
+  return {};
 }
 
 /// Until the first stretch has shown its direction, guidance acts across that direction only, so that it does not hide
@@ -146,6 +185,7 @@ Point Guidance::faded(const PenState& pen, const WriterState& writer, const Poin
   if (fade_ < 1.0) {
     fade_ = std::min(1.0, fade_ + fade_step_);
     force *= smooth_step(fade_);
+    force_.normal *= smooth_step(fade_);
   }
   return released_.acts() ? Point(force + released_.next(tip, velocity)) : force;
 }

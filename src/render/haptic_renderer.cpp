@@ -8,11 +8,11 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
                                const Capabilities& capabilities, const RendererOptions& options)
     : mapping_(mapping),
       effective_(effective_options(options, page, mapping, capabilities)),
+      guidance_(effective_, guidance_law(effective_, capabilities)),
       sensor_(effective_.options, mapping, capabilities),
-      sequencer_(std::move(page), effective_.options, capabilities, mapping),
-      guidance_(effective_),
+      sequencer_(std::move(page), effective_.options, capabilities, mapping, effective_.traits.lets_go),
       paper_(effective_.options),
-      output_(effective_.options, capabilities, mapping, effective_.guidance_stiffness(effective_.max_attraction)) {}
+      output_(effective_.options, capabilities, mapping, effective_.law_stiffness) {}
 
 void HapticRenderer::restart() noexcept {
   sensor_.restart();
@@ -26,7 +26,7 @@ void HapticRenderer::restart() noexcept {
 /// Compiled into one piece with all that it calls in this component, except for what happens once in a stroke
 /// (gnu::noinline): calls of small functions took a fifth of a tick.
 [[gnu::flatten]] const HapticTick& HapticRenderer::update(const DeviceState& sample) noexcept {
-  const PenState& pen = sensor_.update(sample, output_.last().device);
+  PenState& pen = sensor_.update(sample, output_.last().device);
   const WriterState& writer = sequencer_.update(pen);
   const GuidanceForce& guidance = guidance_.update(pen, writer, output_.last().guidance);
   const PaperForce& paper = paper_.update(pen, writer, output_.last().page.z());
@@ -46,7 +46,7 @@ void HapticRenderer::report(const PenState& pen, const WriterState& writer, cons
   tick_.device_point = pen.device_point;
   tick_.pen_tip = pen.tip;
   tick_.penetration = pen.penetration;
-  tick_.contact = writer.contact;
+  if (writer.phase != WritingPhase::lifted || writer.events != TickEvent::none) tick_.contact = writer.contact;
   tick_.covered = writer.covered;
   tick_.hint = hint_in(writer.phase);
   if (sent.is_warm && tick_.hint == WritingHint::none) tick_.hint = WritingHint::warm_motors;
@@ -54,7 +54,7 @@ void HapticRenderer::report(const PenState& pen, const WriterState& writer, cons
   tick_.attraction = guidance.attraction;
   tick_.wrong_way = guidance.wrong_way;
   tick_.friction = paper.friction;
-  tick_.normal = paper.normal;
+  tick_.normal = paper.normal + guidance.normal;
   tick_.viscous = sent.viscous;
   tick_.assistance = guidance.assistance;
   tick_.energy_given = sent.energy_given;

@@ -32,6 +32,8 @@ const char* to_string(TickStatus status) noexcept {
       return "device_fault";
     case TickStatus::bad_clock:
       return "bad_clock";
+    case TickStatus::bad_law:
+      return "bad_law";
   }
   return "";
 }

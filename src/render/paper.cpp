@@ -10,7 +10,6 @@ namespace calligraphy {
 
 Paper::Paper(const RendererOptions& options)
     : options_(options.paper),
-      rules_(options.rules),
       period_(1.0 / options.servo_rate),
       rate_filter_(-std::expm1(-2.0 * std::numbers::pi * options.velocity_cutoff * period_)) {}
 
@@ -29,8 +28,7 @@ const PaperForce& Paper::update(const PenState& pen, const WriterState& writer, 
     if (!pen.holds_force) release();
     return force_;
   }
-  const bool is_solid = writer.state == InteractionState::calibration || writer.state == InteractionState::writing ||
-                        (writer.state == InteractionState::adjusting && options_.solid);
+  const bool is_solid = writer.state == InteractionState::calibration || writer.state == InteractionState::writing;
   force_ = {};
   if (is_solid) press(pen);
   if (force_.normal > 0.0) {
@@ -48,11 +46,11 @@ void Paper::press(const PenState& pen) noexcept {
   const double depth = pen.penetration, onset = options_.onset;
   const double share = depth < onset ? depth / onset : 1.0;
   const double strained = depth < onset ? 0.5 * depth * share : depth - 0.5 * onset;
-  const double spring = normal_force(options_.stiffness, strained, rules_);
+  const double spring = normal_force(options_.stiffness, strained);
   force_.normal = spring;
   if (!(depth > 0.0)) return;
   const double damping = -share * options_.damping * pen.velocity.z();
-  force_.viscous.z() = spring >= 0.0 ? std::max(damping, -spring) : damping;
+  force_.viscous.z() = std::max(damping, -spring);
   force_.normal += force_.viscous.z();
 }
 

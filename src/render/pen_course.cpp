@@ -49,41 +49,39 @@ void PenCourse::begin(const Eigen::Vector3d& position, bool at_rest) noexcept {
   waited_ = 0.0;
 }
 
-/// Of a clock that stands or runs backwards too.
-double PenCourse::since_shown(double elapsed) const noexcept {
-  return waited_ + (elapsed > 0.0 ? std::max(elapsed, min_interval * period_) : period_);
+PenCourse::Step PenCourse::step(const Eigen::Vector3d& position, double elapsed) const noexcept {
+  Step step;
+  // Of a clock that stands or runs backwards too.
+  step.passed = waited_ + (elapsed > 0.0 ? std::max(elapsed, min_interval * period_) : period_);
+  step.way = position - position_;
+  step.square = dot(step.way, step.way);
+  const double farthest = max_speed_ * std::max(step.passed, period_);
+  step.is_too_far = step.square > farthest * farthest;
+  return step;
 }
 
-bool PenCourse::is_too_far(double square, double passed) const noexcept {
-  const double farthest = max_speed_ * std::max(passed, period_);
-  return square > farthest * farthest;
-}
-
-void PenCourse::add(const Eigen::Vector3d& position, double elapsed) noexcept {
-  const double passed = since_shown(elapsed);
-  const Eigen::Vector3d way = position - position_;
-  const double square = dot(way, way);
-  const bool may_be_repeated = square == 0.0 && passed <= max_wait * period_ && !way_.isZero(0.0);
-  waited_ = may_be_repeated ? passed : 0.0;
-  if (may_be_repeated) return;
-  way_ = is_too_far(square, passed) ? Eigen::Vector3d(0.0, 0.0, 0.0) : way;
-  took_ = passed;
-  position_ = position;
-}
-
-PenCourse::Place PenCourse::judge(const Eigen::Vector3d& position, double elapsed) const noexcept {
-  const double passed = since_shown(elapsed);
-  const Eigen::Vector3d way = position - position_;
-  const double square = dot(way, way);
-  if (is_too_far(square, passed)) return Place::impossible;
+PenCourse::Place PenCourse::judge(const Step& step) const noexcept {
+  if (step.is_too_far) return Place::impossible;
   // Means over two intervals are those in their middles.
-  const double margin = noise_ + max_acceleration_ * 0.5 * (took_ + passed) * passed;
+  const double margin = noise_ + max_acceleration_ * 0.5 * (took_ + step.passed) * step.passed;
   const double usual = usual_share * margin;
-  if (square <= usual * usual) return Place::expected;
+  if (step.square <= usual * usual) return Place::expected;
   const Eigen::Vector3d per_second = way_ * (1.0 / took_);
-  if (square_beside(way, per_second * passed) <= usual * usual) return Place::expected;
-  const Eigen::Vector3d farthest = per_second * (passed + jitter * period_);
-  return square_beside(way, farthest) <= margin * margin ? Place::possible : Place::impossible;
+  if (square_beside(step.way, per_second * step.passed) <= usual * usual) return Place::expected;
+  const Eigen::Vector3d farthest = per_second * (step.passed + jitter * period_);
+  return square_beside(step.way, farthest) <= margin * margin ? Place::possible : Place::impossible;
+}
+
+void PenCourse::add(const Eigen::Vector3d& position, const Step& step) noexcept {
+  if (step.square == 0.0 && step.passed <= max_wait * period_ && !way_.isZero(0.0)) {  // it may be a repeated sample
+    waited_ = step.passed;
+    return;
+  }
+  waited_ = 0.0;
+  way_ = step.way;
+  if (step.is_too_far) way_.setZero();
+  took_ = step.passed;
+  position_ = position;
 }
 
 }  // namespace calligraphy

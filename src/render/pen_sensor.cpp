@@ -70,15 +70,20 @@ void PenSensor::restart() noexcept {
   still_at_.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
-const PenState& PenSensor::update(const DeviceState& sample, const Eigen::Vector3d& sent) noexcept {
+PenState& PenSensor::update(const DeviceState& sample, const Eigen::Vector3d& sent) noexcept {
   pen_.time = sample.time;
   pen_.force = sample.force;
   if (counts_pauses_) count_ticks(sample);
   pen_.status = accept(sample, sent);
-  unseen_ = pen_.status == TickStatus::ok ? 0 : unseen_ + 1;
+  unsure_for_ = std::max(0.0, unsure_for_ - period_);
+  if (pen_.status == TickStatus::ok) {
+    unseen_ = 0;
+    pen_.holds_force = false;
+    return pen_;
+  }
+  ++unseen_;
   pen_.holds_force = pen_.status == TickStatus::stale && static_cast<double>(unseen_) * period_ <= max_hold_time;
-  const bool is_gap = pen_.status != TickStatus::ok && !pen_.holds_force;
-  unsure_for_ = is_gap ? max_unsure_time : std::max(0.0, unsure_for_ - period_);
+  if (!pen_.holds_force) unsure_for_ = max_unsure_time;
   return pen_;
 }
 
@@ -98,10 +103,9 @@ void PenSensor::count_ticks(const DeviceState& sample) noexcept {
 }
 
 TickStatus PenSensor::accept(const DeviceState& sample, const Eigen::Vector3d& sent) noexcept {
-  const bool is_usable = sample.status == DeviceStatus::ok || sample.status == DeviceStatus::stale ||
-                         sample.status == DeviceStatus::warm_motors;
-  if (!is_usable) return TickStatus::device_fault;
-  if (sample.status == DeviceStatus::stale) return TickStatus::stale;
+  if (sample.status != DeviceStatus::ok && sample.status != DeviceStatus::warm_motors) {
+    return sample.status == DeviceStatus::stale ? TickStatus::stale : TickStatus::device_fault;
+  }
   const Eigen::Vector3d position = mapping_.to_page(sample.position);
   if (!is_on_page(position) || !std::isfinite(sample.time)) return TickStatus::bad_sample;
   if (is_leaping(sample.time)) return TickStatus::bad_clock;
@@ -153,14 +157,17 @@ bool PenSensor::is_plausible(const Eigen::Vector3d& position, double elapsed) no
     believed_.begin(position, false);
     return true;
   }
-  const PenCourse::Place place = believed_.judge(position, elapsed);
+  const PenCourse::Step step = believed_.step(position, elapsed);
+  const PenCourse::Place place = believed_.judge(step);
   if (place != PenCourse::Place::impossible) {
-    believed_.add(position, elapsed);
+    believed_.add(position, step);
     if (place == PenCourse::Place::possible) unsure_for_ = std::max(unsure_for_, jerk_time);
   } else {
-    const bool agrees = is_in_doubt_ && doubted_.judge(position, period_) != PenCourse::Place::impossible;
+    bool agrees = false;
     if (is_in_doubt_) {
-      doubted_.add(position, period_);
+      const PenCourse::Step doubted = doubted_.step(position, period_);
+      agrees = doubted_.judge(doubted) != PenCourse::Place::impossible;
+      doubted_.add(position, doubted);
     } else {
       doubted_.begin(position, true);
     }

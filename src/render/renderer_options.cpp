@@ -62,6 +62,7 @@ RendererOptions RendererOptions::wang2006() {
   options.limits.in_plane_rate = options.limits.normal_rate = std::numeric_limits<double>::infinity();
   options.guidance.fade_in = options.guidance.fade_out = 0.0;
   options.contact.lift_time = 0.0;
+  options.guidance.force = printed_guidance;
   options.paper.onset = 0.0;
   options.paper.damping = options.guidance.damping = options.paper.friction.damping = 0.0;
   options.stiffness_check = StiffnessCheck::off;
@@ -78,7 +79,7 @@ RendererOptions RendererOptions::for_device(const Capabilities& capabilities, do
 
 RendererOptions RendererOptions::everything(const Capabilities& capabilities, double scale) {
   RendererOptions options = for_device(capabilities, scale);
-  options.guidance.law = GuidanceLaw::saturating;
+  options.guidance.force = saturating_guidance;
   options.guidance.limit = std::min(max_saturated_guidance, guidance_peak_share * capabilities.peak_force) / scale;
   options.guidance.to_start = true;
   options.contact.box_margin = 0.5;

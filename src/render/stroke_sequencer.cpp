@@ -31,14 +31,14 @@ bool is_within(const Eigen::AlignedBox2d& box, const Point& point) {
 }  // namespace
 
 StrokeSequencer::StrokeSequencer(std::vector<PlacedCharacter> page, const RendererOptions& options,
-                                 const Capabilities& capabilities, const MotionMapping& mapping)
+                                 const Capabilities& capabilities, const MotionMapping& mapping, bool lets_go)
     : page_(std::move(page), options),
       stroke_{options.nearest, options.guidance.space, options.rules},
       tolerances_(options.tolerances),
       box_hysteresis_(is_printed(options.rules) ? 0.0 : box_hysteresis),
       lift_between_strokes_(options.contact.lift_between_strokes),
       leads_to_start_(options.guidance.to_start),
-      lets_go_(!is_printed(options.rules) && options.guidance.law != GuidanceLaw::saturating),
+      lets_go_(lets_go),
       mapping_(mapping),
       compliance_(mapping.scale * mapping.scale / options.grip_stiffness) {
   const double dry_friction = capabilities.coulomb_friction + options.paper.friction.coefficient * usual_pressure;
@@ -220,6 +220,7 @@ bool StrokeSequencer::is_finished(bool leaves) const noexcept {
   character_ = character < page_.size() ? &page_[character] : nullptr;
   if (all_written()) return;
   due_ = &character_->strokes[static_cast<std::size_t>(stroke)];
+  writer_.geometry = &due_->geometry;
   writer_.em = character_->em;
   writer_.direction = character_->starts[static_cast<std::size_t>(stroke)].direction;
 }

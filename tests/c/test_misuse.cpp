@@ -518,7 +518,7 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
        [&] { return calligraphy_recording_add(all.recording.get(), nullptr); }},
       {"add", value, "state = 4, must be 0 to 3",
        [&] { return calligraphy_recording_add(all.recording.get(), &no_state); }},
-      {"add", value, "status = -1, must be 0 to 4",
+      {"add", value, "status = -1, must be 0 to 5",
        [&] { return calligraphy_recording_add(all.recording.get(), &no_status); }},
       {"score", value, "tolerance = 3", [&] { return calligraphy_score_recording(all.recording.get(), 3, &score); }},
       {"score", value, "score is null",

@@ -39,7 +39,6 @@ const std::vector<std::pair<const char*, Change>> changes = {
            RendererOptions & in_cpp) { in_c.c = in_c_value, in_cpp.o = in_cpp_value; } \
   }
     CHOOSE(rules, rules, CALLIGRAPHY_RULES_WANG2006, Rules::wang2006),
-    CHOOSE(rules, rules, CALLIGRAPHY_RULES_WANG2006_SIGNS, Rules::wang2006_signs),
     CHOOSE(stiffness_check, stiffness_check, CALLIGRAPHY_STIFFNESS_OFF, StiffnessCheck::off),
     CHOOSE(stiffness_check, stiffness_check, CALLIGRAPHY_STIFFNESS_REJECT, StiffnessCheck::reject),
     CHOOSE(nearest_method, nearest.method, CALLIGRAPHY_NEAREST_EXACT, NearestPointMethod::exact),
@@ -57,8 +56,7 @@ const std::vector<std::pair<const char*, Change>> changes = {
     CHANGE(paper_friction_coefficient, paper.friction.coefficient, 0.11),
     CHANGE(paper_friction_stiffness, paper.friction.stiffness, 201.0),
     CHANGE(paper_friction_damping, paper.friction.damping, 2.1),
-    CHANGE(paper_solid, paper.solid, true),
-    CHOOSE(guidance_law, guidance.law, CALLIGRAPHY_GUIDANCE_SATURATING, GuidanceLaw::saturating),
+    CHOOSE(guidance_law, guidance.force, CALLIGRAPHY_GUIDANCE_SATURATING, saturating_guidance),
     CHANGE(guidance_to_start, guidance.to_start, true),
     CHANGE(assist_enabled, guidance.assist.enabled, true),
     CHANGE(guidance_stiffness, guidance.stiffness, 302.0),
@@ -473,7 +471,7 @@ TEST_CASE("the names of C are the values of C++") {
   CHECK(CALLIGRAPHY_TICK_STALE == static_cast<int>(TickStatus::stale));
   CHECK(CALLIGRAPHY_TICK_BAD_SAMPLE == static_cast<int>(TickStatus::bad_sample));
   CHECK(CALLIGRAPHY_TICK_DEVICE_FAULT == static_cast<int>(TickStatus::device_fault));
-  CHECK(CALLIGRAPHY_TICK_BAD_CLOCK == static_cast<int>(TickStatus::bad_clock));
+  CHECK(CALLIGRAPHY_TICK_BAD_LAW == static_cast<int>(TickStatus::bad_law));
   CHECK(CALLIGRAPHY_HINT_TOO_FAR == static_cast<int>(WritingHint::too_far));
   CHECK(CALLIGRAPHY_HINT_AT_END == static_cast<int>(WritingHint::at_end));
   CHECK(CALLIGRAPHY_HINT_IN_MIDDLE == static_cast<int>(WritingHint::in_middle));

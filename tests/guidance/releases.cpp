@@ -97,10 +97,10 @@ class EndlessGuidance {
     line_ = StrokeLine(std::move(points));
     if (!writing) arc_ = 0.0;
     window_ = 0.2 * line.length();
-    if (options.guidance.law == GuidanceLaw::saturating) limit_ = options.guidance.limit;
+    if (options.guidance.force.is(saturating_guidance)) limit_ = options.guidance.limit;
     stiffness_ = options.guidance.stiffness * before.assistance;
     if (writing) stiffness_ *= before.contact.attraction;
-    if (writing && options.guidance.law == GuidanceLaw::linear) stiffness_ *= before.contact.weight;
+    if (writing && options.guidance.force.is(linear_guidance)) stiffness_ *= before.contact.weight;
     fade_in_ = std::max(options.guidance.fade_in, 0.001);
     missing_ = guidance_of(before) - spring(before.pen_tip.head<2>());
   }

@@ -72,7 +72,7 @@ RendererOptions options_of(Law law, const Capabilities& capabilities) {
   RendererOptions options = RendererOptions::for_device(capabilities);
   if (law == Law::linear) return options;
   const RendererOptions all = RendererOptions::everything(capabilities);
-  options.guidance.law = all.guidance.law;
+  options.guidance.force = all.guidance.force;
   options.guidance.limit = all.guidance.limit;
   options.guidance.to_start = all.guidance.to_start;
   options.contact.box_margin = all.contact.box_margin;

@@ -199,7 +199,7 @@ TEST_CASE("malformed CSV is an error naming the line and the value", "[practice]
   CHECK(second("WS", "ws") == "trace.csv:4: state is 'ws': expected SS, AS, CS or WS");
   CHECK(second("WS,4", "WS,256") == "trace.csv:4: events is '256': expected 0 to 255");
   CHECK(second("WS,4", "WS,1.5") == "trace.csv:4: events is '1.5': expected a number");
-  CHECK(second("ok", "fine") == "trace.csv:4: status is 'fine': expected ok, stale, bad_sample, device_fault or bad_clock");
+  CHECK(second("ok", "fine") == "trace.csv:4: status is 'fine': expected ok, stale, bad_sample, device_fault, bad_clock or bad_law");
   CHECK(second("ok,0", "ok,-1") == "trace.csv:4: character is '-1': expected 0 to 2147483647");
   CHECK(second("ok,0,1", "ok,0,2147483648") == "trace.csv:4: stroke is '2147483648': out of range");
   CHECK(second("250", "x") == "trace.csv:4: tick_ns is 'x': expected a number");

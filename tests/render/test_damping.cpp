@@ -213,7 +213,7 @@ TEST_CASE("a pen at rest in the paper feels K d^2 / (2 onset) up to the onset an
 
 TEST_CASE("where the saturating law is softer, its damping falls by the square root of that", "[render]") {
   RendererOptions options;
-  options.guidance.law = GuidanceLaw::saturating;
+  options.guidance.force = saturating_guidance;
   options.guidance.limit = 1.2;
   options.contact.box_margin = 1.5;
   for (const double distance : {0.015, 0.03}) {

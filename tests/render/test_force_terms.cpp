@@ -5,11 +5,10 @@
 
 using namespace calligraphy;
 
-TEST_CASE("eq. (8) pulls the tip to its closest point, and as printed pushes it away", "[render]") {
+TEST_CASE("eq. (8) pulls the tip to its closest point", "[render]") {
   const Point tip(0.003, 0.004), closest(0.0, 0.0);
   CHECK(attraction_force(400.0, tip, closest).isApprox(Point(-1.2, -1.6)));
   CHECK(attraction_force(400.0, tip, closest).dot(closest - tip) > 0.0);
-  CHECK(attraction_force(400.0, tip, closest, Rules::wang2006_signs).isApprox(Point(1.2, 1.6)));
   CHECK(attraction_force(400.0, closest, closest) == Point(0, 0));
   CHECK(attraction_force(0.0, tip, closest) == Point(0, 0));
 }
@@ -18,8 +17,6 @@ TEST_CASE("eq. (9) pushes out of the paper in proportion to the penetration, and
   CHECK(normal_force(400.0, 0.002) == Approx(0.8));
   CHECK(normal_force(400.0, 0.0) == 0.0);
   CHECK(normal_force(400.0, -0.002) == 0.0);
-  CHECK(normal_force(400.0, 0.002, Rules::wang2006_signs) == Approx(-0.8));
-  CHECK(normal_force(400.0, -0.002, Rules::wang2006_signs) == 0.0);
 }
 
 TEST_CASE("Fig. 4: writing backwards is resisted along the stroke, beyond a dead band and up to a limit", "[render]") {

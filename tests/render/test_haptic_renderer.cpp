@@ -251,19 +251,6 @@ TEST_CASE("Table 2: the force of each state and where it keeps the pen tip", "[r
   CHECK(renderer.last().pen_tip.z() == 0.0);
 }
 
-TEST_CASE("solid paper is felt outside the character too", "[render]") {
-  RendererOptions options;
-  options.paper.solid = true;
-  options.paper.onset = 0.0;
-  HapticRenderer renderer = renderer_of(U"三", options);
-  ScriptedPen pen(renderer);
-  pen.go({0.15, 0.15, 0.01});
-  pen.go({0.15, 0.15, -0.002});
-  for (int i = 0; i < 100; ++i) pen.at({0.15, 0.15, -0.002});
-  CHECK(renderer.last().state == InteractionState::adjusting);
-  CHECK(renderer.last().force.isApprox(Vector3d(0, 0, 0.002 * renderer.options().paper.stiffness)));
-}
-
 TEST_CASE("a pen that moves back along a stroke meets resistance, Fig. 4", "[render]") {
   RendererOptions options;
   options.guidance.wrong_way_stiffness = 200.0;

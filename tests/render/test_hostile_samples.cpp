@@ -386,10 +386,9 @@ TEST_CASE("a clock that is not in seconds is told within 50 samples and takes th
 TEST_CASE("no sequence of samples makes the force step, exceed the peak or lose finiteness", "[render]") {
   std::vector<RendererOptions> all(5);
   all[1].contact.lift_between_strokes = false;
-  all[1].paper.solid = true;
   all[2] = RendererOptions::wang2006();
   all[2].limits = {};
-  all[3].rules = Rules::wang2006_signs;
+  all[3].guidance.force = [](const GuidanceInput& in) -> Point { return -1e4 * in.way; };
   all[4].limits.max_speed = 100.0;
   for (std::size_t i = 1; i < all.size(); ++i) all[i].limits.max_acceleration = infinity;
   for (std::size_t i = 0; i < all.size(); ++i) {

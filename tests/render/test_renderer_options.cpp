@@ -322,7 +322,7 @@ TEST_CASE("everything() is valid for the shipped devices, and enables every stag
       INFO("peak " << shipped.peak << " N, " << rate << " Hz: " << complaint(options, device));
       CHECK(complaint(options, device).empty());
       CHECK(complaint([&] { HapticRenderer({placed(U'永')}, {}, device, options); }).empty());
-      CHECK(options.guidance.law == GuidanceLaw::saturating);
+      CHECK(options.guidance.force.is(saturating_guidance));
       CHECK(options.guidance.to_start);
       CHECK_FALSE(options.guidance.assist.enabled);  // it withdraws guidance by intent
       CHECK(options.paper.friction.coefficient == 0.15);

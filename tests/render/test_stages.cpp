@@ -35,7 +35,7 @@ RendererOptions everything() { return RendererOptions::everything(warm_device())
 
 RendererOptions saturating() {
   RendererOptions options;
-  options.guidance.law = GuidanceLaw::saturating;
+  options.guidance.force = saturating_guidance;
   options.guidance.limit = 1.2;
   options.contact.box_margin = 1.5;
   return options;
@@ -141,7 +141,7 @@ TEST_CASE("saturating guidance has the stiffness of eq. (8) near the stroke and 
 TEST_CASE("the linear law ends where the saturating one still guides", "[render]") {
   for (const bool saturates : {false, true}) {
     RendererOptions options = saturating();
-    if (!saturates) options.guidance.law = GuidanceLaw::linear;
+    if (!saturates) options.guidance.force = linear_guidance;
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
     const FirstStroke stroke = begin_writing(pen, renderer);

@@ -25,7 +25,7 @@ using Phase = WritingPhase;
 namespace {
 
 StrokeSequencer sequencer_of(char32_t code, const RendererOptions& options = {}) {
-  return StrokeSequencer({placed(code)}, options, test_device(), {});
+  return StrokeSequencer({placed(code)}, options, test_device(), {}, true);
 }
 
 PenState pen_at(const Point& tip, bool contact) {
@@ -189,7 +189,7 @@ TEST_CASE("a pen put down beside a stroke that it begins at once, but out of the
   const std::vector<StrokeInput> inputs = {{1, {{0.2, 0.5}, {0.8, 0.5}}}, {1, {{0.5, 0.8}, {0.5, 0.8}}}};
   RendererOptions options;
   options.contact.box_margin = 0.05;
-  StrokeSequencer sequencer({{make_character(U'\u4E0A', inputs), {{0.0, 0.0}, 0.04}}}, options, test_device(), {});
+  StrokeSequencer sequencer({{make_character(U'\u4E0A', inputs), {{0.0, 0.0}, 0.04}}}, options, test_device(), {}, true);
   sequencer.update(pen_at(0.04 * Point(0.2, 0.5), false));
   for (int i = 0; i <= 110; ++i) sequencer.update(pen_at(0.04 * Point(0.2 + 0.005 * i, 0.5), true));
   for (int i = 0; i <= 26; ++i) sequencer.update(pen_at(0.04 * Point(0.75 - 0.005 * i, 0.5), true));
@@ -213,7 +213,7 @@ TEST_CASE("a stroke that is drawn exactly is finished with every preset, whichev
         const Point start(0.3, 0.5), way(std::cos(angle), std::sin(angle));
         const StrokeInput input{4, {start, start + 3.0 * entry * way, {0.5, 0.5}, {0.75, 0.4}}};
         StrokeSequencer sequencer({{make_character(U'\u4E3F', std::span(&input, 1)), {{0.0, 0.0}, 0.04}}}, options,
-                                  test_device(), {});
+                                  test_device(), {}, true);
         for (const Point& tip : way_along(sequencer, 0)) sequencer.update(pen_at(tip, true));
         CAPTURE(tolerances.corridor, entry, angle);
         CHECK(sequencer.update(pen_at({0.0, 0.0}, false)).character == 1);

@@ -63,6 +63,7 @@ TEST_CASE("the half disc drops K d before the end of a stroke, the tube does not
   RendererOptions whole = direct();
   whole.tolerances.coverage = 0.0;
   RendererOptions printed = whole;
+  printed.guidance.force = printed_guidance;
   printed.rules = Rules::wang2006;  // the disc ends d^2 / 2L before the stroke
   constexpr double slow = 0.005;
   for (const double deviation : {0.001, 0.002, 0.004}) {
@@ -140,17 +141,20 @@ TEST_CASE("as printed, crossing the edge of the box while pressing steps the nor
     pen.go({box.min().x() + 0.002, 0.03, -0.003});
     return pen.max_step;
   };
-  RendererOptions printed = RendererOptions::wang2006(), limited, solid;
-  printed.paper.stiffness = limited.paper.stiffness = solid.paper.stiffness = stiffness;
-  solid.paper.solid = true;
+  RendererOptions printed = RendererOptions::wang2006(), limited;
+  printed.paper.stiffness = limited.paper.stiffness = stiffness;
   CHECK(crossing(printed) == Approx(stiffness * 0.003).epsilon(1e-9));  // 1.2 N
-  CHECK(crossing(limited) <= std::hypot(0.4, 0.02));                    // 400 N/s at 1 kHz, and the slight
-  CHECK(crossing(solid) <= 0.02);                                       // damping along the paper
+  CHECK(crossing(limited) <= std::hypot(0.4, 0.02));  // 400 N/s at 1 kHz, and the slight damping along the paper
 }
 
 TEST_CASE("the signs as printed push away from the stroke and into the paper", "[render]") {
   RendererOptions printed = direct();
-  printed.rules = Rules::wang2006_signs;
+  printed.rules = Rules::wang2006;
+  printed.paper.stiffness = 0.0;
+  printed.guidance.force = {[](const GuidanceInput& in) -> GuidanceTerms {
+                              return {stiffness * (in.tip - in.nearest), {0.0, 0.0}, -stiffness * in.depth};
+                            },
+                            {.stiffness = stiffness}};
   HapticRenderer renderer({{line, {{0.02, 0.02}, 0.04}}}, {}, test_device(), printed);
   ScriptedPen pen(renderer);
   const std::vector<Point> path = page_path(line, 0.002);
@@ -199,6 +203,6 @@ TEST_CASE("wang2006() selects every printed rule except the signs", "[render]") 
   CHECK(options.paper.damping == 0.0);
   CHECK(options.guidance.damping == 0.0);
   CHECK(options.stiffness_check == StiffnessCheck::off);
-  CHECK_FALSE(options.paper.solid);
+  CHECK(options.guidance.force.is(printed_guidance));
   CHECK_NOTHROW(validate(options, test_device()));
 }

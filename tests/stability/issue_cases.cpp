@@ -148,7 +148,7 @@ HandRun pressed(const std::string& profile, double force) {
 
 HandRun pulled_aside(double force) {
   HandRun run = jogged("desktop", light, 0.0);
-  run.options.guidance.law = GuidanceLaw::linear;
+  run.options.guidance.force = linear_guidance;
   run.force = [force](double time, const Vector3d&) {
     const double press = std::clamp((time - 0.2) / 0.1, 0.0, 1.0);
     return Vector3d(0.0, time >= 1.0 && time < 1.04 ? force : 0.0, -press);

@@ -62,8 +62,7 @@ void draw_options(SweepCase& drawn, Random& random) {
   random.next();  // once drew a stage that is gone; the other draws of a case stay as they were
   if (drawn.composition == Composition::force_rates || drawn.composition == Composition::stiffness) {
     if (other_law) {
-      options.guidance.law =
-          options.guidance.law == GuidanceLaw::linear ? GuidanceLaw::saturating : GuidanceLaw::linear;
+      options.guidance.force = options.guidance.force.is(linear_guidance) ? saturating_guidance : linear_guidance;
     }
   }
   if (drawn.composition == Composition::force_rates) {
@@ -407,7 +406,7 @@ std::string describe(const SweepCase& drawn) {
       static_cast<unsigned long long>(drawn.seed), drawn.index, drawn.device.name.c_str(), drawn.device.update_rate,
       drawn.device.sample_delay, composition_names[static_cast<std::size_t>(drawn.composition)],
       options.guidance.stiffness, options.paper.stiffness,
-      options.guidance.law == GuidanceLaw::linear ? "linear" : "saturating", options.limits.in_plane_rate,
+      options.guidance.force.is(linear_guidance) ? "linear" : "saturating", options.limits.in_plane_rate,
       options.limits.normal_rate, options.paper.friction.coefficient, drawn.attraction, drawn.flat ? "flat" : "upright",
       std::array{"true", "estimated", "unknown"}[static_cast<std::size_t>(drawn.velocity)], name.c_str(),
       drawn.bare ? (drawn.carried ? "bare pen carried" : "bare pen") : "grip", drawn.grip.mass, drawn.grip.damping,

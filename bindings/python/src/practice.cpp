@@ -28,7 +28,7 @@ Recording recording_of(double rate, const ArrayLike& samples, std::uint32_t page
   for (std::size_t i = 0; i < result.samples.size(); ++i) {
     RecordedSample& sample = result.samples[i];
     std::memcpy(static_cast<void*>(&sample), rows.data(static_cast<py::ssize_t>(i)), sizeof sample);
-    if (sample.state > InteractionState::writing || sample.status > TickStatus::bad_clock) {
+    if (sample.state > InteractionState::writing || sample.status > TickStatus::bad_law) {
       throw ValueError(told("samples[{}]: state {}, status {}: no such state or status", i,
                             static_cast<int>(sample.state), static_cast<int>(sample.status)));
     }

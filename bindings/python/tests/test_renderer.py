@@ -16,8 +16,8 @@ AWAY = START + (0.0, 0.009)  # within the box of the character, too far from the
 
 
 def renderer(paper=None, **options):
-    """At 1 kHz, with paper that also presses back where nothing is being written."""
-    options = cal.RendererOptions(paper=cal.PaperOptions(solid=True, **(paper or {})), **options)
+    """At 1 kHz."""
+    options = cal.RendererOptions(paper=cal.PaperOptions(**(paper or {})), **options)
     return cal.HapticRenderer(PAGE.characters, MAPPING, DESKTOP, options)
 
 

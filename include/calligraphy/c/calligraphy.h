@@ -308,9 +308,8 @@ CALLIGRAPHY_API calligraphy_status calligraphy_device_supply(calligraphy_device*
 
 /// Which rules hold where the paper's printed ones were revised (docs/wang2006.md).
 typedef enum calligraphy_rules {
-  CALLIGRAPHY_RULES_REVISED = 0,        ///< all revised
-  CALLIGRAPHY_RULES_WANG2006 = 1,       ///< all as printed, but for the signs of eq. (8) and (9)
-  CALLIGRAPHY_RULES_WANG2006_SIGNS = 2  ///< and these
+  CALLIGRAPHY_RULES_REVISED = 0,  ///< all revised
+  CALLIGRAPHY_RULES_WANG2006 = 1  ///< all as printed, but for the signs of eq. (8) and (9)
 } calligraphy_rules;
 
 /// What to do with a stiffness above what is usable or stable on the device.
@@ -328,10 +327,11 @@ typedef enum calligraphy_nearest_method {
   CALLIGRAPHY_NEAREST_WANG2006 = 3  ///< as printed
 } calligraphy_nearest_method;
 
-/// How guidance depends on the distance from the stroke.
+/// How guidance depends on where the pen is.
 typedef enum calligraphy_guidance_law {
-  CALLIGRAPHY_GUIDANCE_LINEAR = 0,     ///< a spring within the constraint space, nothing outside
-  CALLIGRAPHY_GUIDANCE_SATURATING = 1  ///< a spring that levels off towards guidance_limit, at any distance
+  CALLIGRAPHY_GUIDANCE_LINEAR = 0,      ///< a spring within the constraint space, nothing outside
+  CALLIGRAPHY_GUIDANCE_SATURATING = 1,  ///< a spring that levels off towards guidance_limit, at any distance
+  CALLIGRAPHY_GUIDANCE_WANG2006 = 2     ///< the linear one as printed, which never lets go
 } calligraphy_guidance_law;
 
 /// How exactly a stroke must be written to count as the one that is due.
@@ -361,7 +361,6 @@ typedef struct calligraphy_renderer_options {
   double paper_friction_coefficient;  ///< tangential over normal force; 0: no friction [1]
   double paper_friction_stiffness;    ///< of the spring between pen and paper [N/m]
   double paper_friction_damping;      ///< of that spring [N s/m]
-  int32_t paper_solid;                ///< the paper presses back everywhere, not only at the character being written
 
   int32_t guidance_law;                 ///< a calligraphy_guidance_law
   int32_t guidance_to_start;            ///< pull the pen to the start of the stroke that is due
@@ -461,7 +460,8 @@ typedef enum calligraphy_tick_status {
   CALLIGRAPHY_TICK_STALE = 1,         ///< no new sample, as the device says: the force is held, then ramps down to zero
   CALLIGRAPHY_TICK_BAD_SAMPLE = 2,    ///< not finite, or too far away: the force ramps down to zero
   CALLIGRAPHY_TICK_DEVICE_FAULT = 3,  ///< reported by the device: the force ramps down to zero
-  CALLIGRAPHY_TICK_BAD_CLOCK = 4      ///< times not in seconds, or a loop not at its rate: the force ramps down to zero
+  CALLIGRAPHY_TICK_BAD_CLOCK = 4,     ///< times not in seconds, or a loop not at its rate: the force ramps down to zero
+  CALLIGRAPHY_TICK_BAD_LAW = 5        ///< the guidance law failed, or its force is not finite: the force ramps down to zero
 } calligraphy_tick_status;
 
 /// Why a pen on the paper is not guided.

@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include <calligraphy/collision/rules.hpp>
 #include <calligraphy/model/point.hpp>
 
 namespace calligraphy {
 
 /// In-plane attraction, eq. (8): K (X_s - X_p), where K includes the attraction factor and the guidance weight [N]. As
 /// printed: K (X_p - X_s).
-inline Point attraction_force(double stiffness, const Point& tip, const Point& closest,
-                              Rules rules = Rules::revised) noexcept {
-  return (rules == Rules::wang2006_signs ? -stiffness : stiffness) * (closest - tip);
+inline Point attraction_force(double stiffness, const Point& tip, const Point& closest) noexcept {
+  return stiffness * (closest - tip);
 }
 
 /// Saturates a linear force at `limit` [N]: F / sqrt(1 + (F / limit)^2). Near the stroke the stiffness is that of eq.
@@ -25,8 +23,8 @@ inline Point saturated_force(const Point& force, double limit) noexcept {
 
 /// Normal force, eq. (9): K d along the normal out of the paper, d = max(0, penetration) [N]. As printed: K (z_p - z_0)
 /// for z_p >= z_0 along the axis of z_p itself, which pulls the pen further in.
-inline double normal_force(double stiffness, double penetration, Rules rules = Rules::revised) noexcept {
-  return (rules == Rules::wang2006_signs ? -stiffness : stiffness) * std::max(0.0, penetration);
+inline double normal_force(double stiffness, double penetration) noexcept {
+  return stiffness * std::max(0.0, penetration);
 }
 
 /// Resistance to writing backwards (Fig. 4): a spring along the tangent in writing direction, from the furthest point

@@ -1,6 +1,7 @@
 // Renders guided writing, once per tick: device sample in, force out (Wang 2006, sec. 4.1, Figs. 14 and 15).
 #pragma once
 
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ class HapticRenderer {
   /// due: the page is written, or the pen has not left the last stroke of the character yet.
   bool skip_stroke() noexcept { return sequencer_.skip(); }
 
+  /// What the guidance law threw first since the restart; null: nothing. TickStatus::bad_law says when.
+  const std::exception_ptr& law_error() const noexcept { return guidance_.error(); }
+
   /// What the last update() returned. For the thread that calls update() alone: for a display, publish it through a
   /// LatestValue.
   const HapticTick& last() const noexcept { return tick_; }
@@ -69,9 +73,9 @@ class HapticRenderer {
 
   MotionMapping mapping_;
   EffectiveOptions effective_;
+  Guidance guidance_;
   PenSensor sensor_;
   StrokeSequencer sequencer_;
-  Guidance guidance_;
   Paper paper_;
   ForceOutput output_;
   HapticTick tick_;

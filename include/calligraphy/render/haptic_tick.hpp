@@ -44,10 +44,11 @@ enum class TickStatus : std::uint8_t {
   device_fault,  ///< reported by the device: the force ramps down to zero
   /// 50 samples running, each later than the one before by 300 periods of the servo rate: their times are not in
   /// seconds, or the loop is not at its rate. Dampers know no velocity then: the force ramps down to zero.
-  bad_clock
+  bad_clock,
+  bad_law  ///< the guidance law threw, or its force is not finite: the force ramps down, and sets in again with the law
 };
 
-/// "ok", "stale", "bad_sample", "device_fault", "bad_clock".
+/// "ok", "stale", "bad_sample", "device_fault", "bad_clock", "bad_law".
 const char* to_string(TickStatus status) noexcept;
 
 /// Why a pen on the paper is not guided, or by less than it should be, for a display to show.

@@ -12,16 +12,11 @@
 #include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/render/assist_policy.hpp>
+#include <calligraphy/render/guidance_law.hpp>
 #include <calligraphy/render/paper_friction.hpp>
 #include <calligraphy/render/stroke_tolerances.hpp>
 
 namespace calligraphy {
-
-/// How guidance depends on the distance from the stroke.
-enum class GuidanceLaw {
-  linear,     ///< eq. (8) within the constraint space, zero outside
-  saturating  ///< eq. (8) near the stroke, at most GuidanceOptions::limit, anywhere in the character's box
-};
 
 /// What to do with a stiffness above what is usable or stable on the device.
 enum class StiffnessCheck {
@@ -30,14 +25,12 @@ enum class StiffnessCheck {
   off      ///< accept it, up to 1e6 N/m: for experiments on simulated devices that look for the limit itself
 };
 
-/// How the paper feels: the force along its normal, and friction along it.
+/// How the paper feels: the force along its normal, and friction along it. It presses back at the character that is
+/// being written: Table 2 has no normal force in the adjusting state, beside it.
 struct PaperOptions {
   double stiffness = 600.0;  ///< of its surface, K_en of eq. (9): force per depth of the pen below it [N/m]
   double damping = 4.0;      ///< of its surface: against motion along the normal while the pen is below it [N s/m]
   double onset = 0.0005;     ///< depth over which stiffness and damping rise from zero, so that a touch is no step [m]
-  /// The paper presses back everywhere. Otherwise only at the character that is being written: Table 2 has no normal
-  /// force in the adjusting state, beside it.
-  bool solid = false;
   FrictionOptions friction;  ///< between pen and paper, along the surface; off by default
 };
 
@@ -48,13 +41,13 @@ struct GuidanceOptions {
   /// Against motion across the stroke, where that spring acts; elsewhere on the paper 15 % of it, against motion in any
   /// direction [N s/m].
   double damping = 4.0;
-  GuidanceLaw law = GuidanceLaw::linear;  ///< how the force grows with the distance
-  double limit = 2.0;  ///< maximum force of the spring with the saturating law, which levels off towards it [N]
+  GuidanceFactory force;  ///< how it depends on where the pen is: linear_guidance, or an own law
+  double limit = 2.0;     ///< maximum force of the spring of saturating_guidance, which levels off towards it [N]
   /// Before a stroke is begun, pull the pen to its start, to half of StrokeTolerances::start_distance, if it was put
   /// down nearer to it than to the starts to come and not on the stroke. False: only near the start, and only across
   /// the stroke.
   bool to_start = false;
-  ConstraintSpace space;  ///< how far from the stroke guidance acts, with the linear law
+  ConstraintSpace space;  ///< how far from the stroke guidance acts, with a law that lets go
   double fade_in = 0.15;  ///< time in which it sets in from zero, at contact, as a stroke begins, at feature points [s]
   double fade_out = 0.3;  ///< time in which it is withdrawn where it lets go, so that a pulled hand is not thrown [s]
   double wrong_way_stiffness = 200.0;  ///< of the spring against writing the stroke backwards (Fig. 4); 0: none [N/m]
@@ -123,9 +116,9 @@ struct RendererOptions {
   ForceLimits limits;           ///< of the rate of the force, the motors' heat and the pen's motion
   EnergyOptions energy;         ///< how much energy the force may give the hand
 
-  /// Every rule as printed, except the signs of eq. (8) and (9), which the available text may have lost: with the signs
-  /// as printed nothing can be written (Rules::wang2006_signs). Widths and stiffnesses are the defaults. Without
-  /// damping no stiffness is stable in every hand, so stiffness_check is off.
+  /// Every rule as printed, with printed_guidance, except the signs of eq. (8) and (9), which the available text may
+  /// have lost: with the signs as printed nothing can be written (docs/wang2006.md). Widths and stiffnesses are the
+  /// defaults. Without damping no stiffness is stable in every hand, so stiffness_check is off.
   static RendererOptions wang2006();
 
   /// The defaults, with stiffnesses clipped to what is usable and stable on it, for any

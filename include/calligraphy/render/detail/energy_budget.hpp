@@ -59,6 +59,8 @@ class EnergyBudget {
   /// Reports the force after all limits, held from now on. Call it once after every next().
   void sent(const Eigen::Vector3d& force) noexcept;
   /// Resets: no force sent, no energy delivered.
+  /// May be given beside the budget, which it refills [J].
+  void earn(double energy) noexcept { spend(-energy); }
   void restart() noexcept;
 
   /// Net energy delivered to the hand, as observed; work not yet observed is not in it [J].

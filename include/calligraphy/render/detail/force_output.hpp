@@ -29,7 +29,7 @@ struct SentForce {
 /// The energy is that of the force at work. Never allocates.
 class ForceOutput {
  public:
-  /// `max_guidance_stiffness`: where it is stiffest on the page [N/m].
+  /// `max_guidance_stiffness`: by how much it follows the pen at most [N/m].
   /// @throws ValueError unless the device has a peak force
   ForceOutput(const RendererOptions& options, const Capabilities& capabilities, const MotionMapping& mapping,
               double max_guidance_stiffness);

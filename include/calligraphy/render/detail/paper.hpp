@@ -35,7 +35,6 @@ class Paper {
   void rub(const Point& point, double pressure) noexcept;
 
   PaperOptions options_;
-  Rules rules_;
   double period_;       ///< [s]
   double rate_filter_;  ///< coefficient of the low-pass on the rate of the friction spring
   PaperFriction friction_;

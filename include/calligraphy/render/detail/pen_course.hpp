@@ -25,15 +25,22 @@ class PenCourse {
 
   /// The pen is there, at rest or at any speed.
   void begin(const Eigen::Vector3d& position, bool at_rest) noexcept;
-  /// It was there `elapsed` after the sample before [s].
-  void add(const Eigen::Vector3d& position, double elapsed) noexcept;
-  /// What to make of it there.
-  Place judge(const Eigen::Vector3d& position, double elapsed) const noexcept;
+
+  /// To the next sample.
+  struct Step {
+    double passed;        ///< since the pen was first seen where it was [s]
+    Eigen::Vector3d way;  ///< [m]
+    double square;        ///< of the way
+    bool is_too_far;      ///< for any speed that is believed
+  };
+  /// To a position `elapsed` after the sample before [s].
+  Step step(const Eigen::Vector3d& position, double elapsed) const noexcept;
+  /// What to make of it.
+  Place judge(const Step& step) const noexcept;
+  /// The pen has taken it.
+  void add(const Eigen::Vector3d& position, const Step& step) noexcept;
 
  private:
-  double since_shown(double elapsed) const noexcept;
-  bool is_too_far(double square, double passed) const noexcept;
-
   double max_speed_;         ///< [m/s, page]
   double max_acceleration_;  ///< [m/s^2, page]
   double noise_;             ///< of the way between two samples [m, page]

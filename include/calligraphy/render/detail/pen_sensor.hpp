@@ -28,7 +28,7 @@ class PenSensor {
   PenSensor(const RendererOptions& options, const MotionMapping& mapping, const Capabilities& capabilities);
 
   /// `sent`: the last force, for a device that does not say which one is at work [N, device axes].
-  const PenState& update(const DeviceState& sample, const Eigen::Vector3d& sent) noexcept;
+  PenState& update(const DeviceState& sample, const Eigen::Vector3d& sent) noexcept;
   void restart() noexcept;
 
  private:

@@ -17,9 +17,9 @@ namespace calligraphy {
 /// update() never allocates, throws or logs.
 class StrokeSequencer {
  public:
-  /// The page, the options and the mapping must be valid.
+  /// The page, the options and the mapping must be valid. `lets_go`: GuidanceTraits.
   StrokeSequencer(std::vector<PlacedCharacter> page, const RendererOptions& options, const Capabilities& capabilities,
-                  const MotionMapping& mapping);
+                  const MotionMapping& mapping, bool lets_go);
 
   const WriterState& update(const PenState& pen) noexcept;
   /// Nothing is written.

@@ -24,6 +24,7 @@ struct WriterState {
   Point direction = Point::Zero();  ///< of its first stretch; unit vector, zero for a stroke without length
   double attraction = 1.0;          ///< attraction factor where the pen is; before the stroke, that at its start [1]
   double em = 0.0;                  ///< of the character [m]
+  const ActiveStroke* geometry = nullptr;  ///< of the stroke that is due; the last once all are written
 };
 
 }  // namespace calligraphy
