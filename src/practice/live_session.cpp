@@ -44,9 +44,9 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
   require_above_zero("timeout", options.timeout, "s");
   validate(device.capabilities());
   const MotionMapping mapping = options.mapping.value_or(upright_page(page.width, page.height));
-  HapticRenderer renderer(page.characters, mapping, with_peak_force(device.capabilities(), options.peak_force),
-                          options.renderer);
-  SessionTick session(renderer, options.mode, true);
+  const Capabilities capabilities = with_peak_force(device.capabilities(), options.peak_force);
+  HapticRenderer renderer(page.characters, mapping, capabilities, options.renderer);
+  SessionTick session(renderer, capabilities, options.mode, options.law, true);
   const double rate = renderer.options().servo_rate;
   SampleQueue<LiveTick> queue(static_cast<std::size_t>(std::ceil(max_absence * rate)));
   ServoLoopOptions servo = options.servo;
@@ -54,7 +54,8 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
   servo.servo.timeout = std::max(servo.servo.timeout, min_patience / rate);
   std::atomic<bool> in_front = false;  // an inkwell lies behind the paper: the way out of it is no writing
   std::atomic<double> behind = 0.0;
-  ForceLaw law = [&](const DeviceState& state) noexcept {
+  std::atomic<bool> has_failed = false;
+  ForceLaw loop_law = [&](const DeviceState& state) noexcept {
     if (!in_front.load(std::memory_order_relaxed)) {
       const double depth = -mapping.to_page(state.position).z();
       behind.store(std::max(depth, 0.0), std::memory_order_relaxed);
@@ -63,14 +64,14 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
     }
     const HapticTick& tick = session.update(state);
     queue.push({session.sample(), tick.hint, tick.to_start});
+    if (session.has_failed()) has_failed.store(true, std::memory_order_relaxed);
     return Eigen::Vector3d(session.force());
   };
-  law.rate = rate;
-  ServoLoop loop(device, std::move(law), servo);
+  loop_law.rate = rate;
+  ServoLoop loop(device, std::move(loop_law), servo);
 
   LiveResult result;
-  result.recording.rate = rate;
-  result.recording.page = page_id(page);
+  result.recording = recording_for(page, renderer, options.mode, options.law);
   LiveView view;
   LiveTick newest;
   const auto take_over = [&] {
@@ -97,13 +98,14 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
     view.started = in_front.load(std::memory_order_relaxed);
     view.behind = behind.load(std::memory_order_relaxed);
     view.progress = share_written(page, view.newest.character, view.newest.stroke);
-    if (!goes_on()) break;
+    if (!goes_on() || has_failed.load(std::memory_order_relaxed)) break;
     if (view.newest.character >= count && view.newest.state != InteractionState::writing) break;
   }
   loop.stop();
   take_over();
   result.statistics = loop.statistics();
   result.dropped = queue.dropped();
+  result.error = session.error();
   return result;
 }
 

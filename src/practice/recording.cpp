@@ -1,5 +1,6 @@
 #include <calligraphy/practice/recording.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -21,9 +22,10 @@ namespace {
 constexpr std::array<std::string_view, 16> column_names = {
     "time_s",    "device_x_m", "device_y_m", "device_z_m", "tip_x_m", "tip_y_m",   "tip_z_m", "force_x_N",
     "force_y_N", "force_z_N",  "state",      "events",     "status",  "character", "stroke",  "tick_ns"};
-constexpr std::string_view rate_comment = "# rate_Hz=", page_comment = " page=";
+constexpr std::string_view rate_comment = "# rate_Hz=", page_comment = " page=", law_comment = " law=";
 constexpr std::size_t max_recording_bytes = 1 << 30;  ///< more than an hour at 1 kHz
 constexpr std::size_t max_row_bytes = 4096;           ///< sixteen values of any length that is written
+constexpr std::size_t max_law_bytes = 1000;           ///< of its name
 constexpr std::size_t chunk = 1 << 16;                ///< bytes given to the stream at a time
 
 constexpr std::array states = {InteractionState::separation, InteractionState::adjusting, InteractionState::calibration,
@@ -31,6 +33,8 @@ constexpr std::array states = {InteractionState::separation, InteractionState::a
 constexpr std::array statuses = {TickStatus::ok, TickStatus::stale, TickStatus::bad_sample, TickStatus::device_fault,
                                  TickStatus::bad_clock, TickStatus::bad_law};
 constexpr int all_events = 2 * static_cast<int>(TickEvent::page_finished) - 1;
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
 std::string header() {
   std::string text;
@@ -72,7 +76,11 @@ class RecordingParser : private LineReader {
       fail("expected '" + std::string(rate_comment) + "...', found " + calligraphy::in_quotes(line()));
     }
     Recording recording;
-    const std::string_view values = std::string_view(line()).substr(rate_comment.size());
+    std::string_view values = std::string_view(line()).substr(rate_comment.size());
+    if (const std::size_t law = values.find(law_comment); law != std::string_view::npos) {
+      recording.law = values.substr(law + law_comment.size());
+      values = values.substr(0, law);
+    }
     const std::string_view rate = values.substr(0, values.find(page_comment));
     recording.rate = number<double>("rate_Hz", rate);
     if (!(std::isfinite(recording.rate) && recording.rate > 0.0)) {
@@ -167,6 +175,10 @@ void write_recording(std::ostream& out, const Recording& recording) {
   std::string text = header().append("\n").append(rate_comment);
   append(text, recording.rate);
   if (recording.page != 0) append(text.append(page_comment), recording.page);
+  if (!recording.law.empty()) {
+    text.append(law_comment).append(recording.law, 0, max_law_bytes);
+    std::replace_if(text.begin() + static_cast<std::ptrdiff_t>(header().size() + 1), text.end(), is_control, ' ');
+  }
   text += '\n';
   for (const RecordedSample& sample : recording.samples) {
     append_row(text, sample);

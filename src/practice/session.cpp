@@ -45,14 +45,13 @@ Recording run_session(const PracticePage& page, const SessionOptions& options, c
   SimulatedDevice device(capabilities, options.skill.grip, mapping.to_device(resting_point(page)));
 
   const FlushDenormals as_a_servo_thread;
-  SessionTick session(renderer, options.mode, options.measure_ticks);
+  SessionTick session(renderer, capabilities, options.mode, options.law, options.measure_ticks);
   const double period = 1.0 / renderer.options().servo_rate;
   const double longest = options.character_timeout * static_cast<double>(page.characters.size());
-  Recording recording;
-  recording.rate = renderer.options().servo_rate;
-  recording.page = page_id(page);
+  Recording recording = recording_for(page, renderer, options.mode, options.law);
   while (device.time() < longest) {
     const HapticTick& tick = session.update(device.read());
+    if (session.has_failed()) std::rethrow_exception(session.error());
     device.write(session.force());
     recording.samples.push_back(session.sample());
     if (options.progress && recording.samples.size() % progress_interval == 0) {
@@ -95,12 +94,11 @@ Recording replay_page(const PracticePage& page, ReplayDevice& device, const Sess
   const MotionMapping mapping = options.mapping.value_or(upright_page(page.width, page.height));
   HapticRenderer renderer(page.characters, mapping, device.capabilities(), options.renderer);
   const FlushDenormals as_a_servo_thread;
-  SessionTick session(renderer, options.mode, options.measure_ticks);
-  Recording recording;
-  recording.rate = renderer.options().servo_rate;
-  recording.page = page_id(page);
+  SessionTick session(renderer, device.capabilities(), options.mode, options.law, options.measure_ticks);
+  Recording recording = recording_for(page, renderer, options.mode, options.law);
   while (!device.finished()) {
     const HapticTick& tick = session.update(device.read());
+    if (session.has_failed()) std::rethrow_exception(session.error());
     device.write(session.force());
     recording.samples.push_back(session.sample());
     if (options.progress && recording.samples.size() % progress_interval == 0) {

@@ -1,45 +1,50 @@
-// One tick of a session, whoever holds the pen: the renderer's answer and the line that the recording keeps of it.
+// One tick of a session, whoever holds the pen: the force, and the line that the recording keeps of it.
 #pragma once
 
+#include <exception>
+#include <string>
+
+#include <calligraphy/devices/servo.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/session.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 
-#include "base/monotonic_clock.hpp"
-
 namespace calligraphy {
 
-/// Asks the renderer, and by choice reads the clock round it.
+/// Asks the renderer, and the law for the whole force if there is one, and by choice reads the clock round them.
 class SessionTick {
  public:
-  SessionTick(HapticRenderer& renderer, FeedbackMode mode, bool measure)
-      : renderer_(renderer), mode_(mode), measure_(measure) {}
+  SessionTick(HapticRenderer& renderer, const Capabilities& device, FeedbackMode mode, const ForceLaw& law,
+              bool measure);
 
   /// The force for the device is force().
-  const HapticTick& update(const DeviceState& state) noexcept {
-    const double before = measure_ ? monotonic_seconds() : 0.0;
-    const HapticTick& tick = renderer_.update(state);
-    const double after = measure_ ? monotonic_seconds() : 0.0;
-    const bool feels = mode_ == FeedbackMode::force;
-    force_ = feels ? tick.force : Eigen::Vector3d(Eigen::Vector3d::Zero());
-    sample_ = {tick.time,    tick.device_point,
-               tick.pen_tip, feels ? tick.page_force : Eigen::Vector3d(Eigen::Vector3d::Zero()),
-               tick.state,   tick.events,
-               tick.status,  tick.character,
-               tick.stroke,  static_cast<float>(1e9 * (after - before))};
-    return tick;
-  }
+  const HapticTick& update(const DeviceState& state) noexcept;
 
   const Eigen::Vector3d& force() const noexcept { return force_; }
   const RecordedSample& sample() const noexcept { return sample_; }
+  /// What the force law or the guidance law threw first; null: nothing.
+  std::exception_ptr error() const noexcept { return error_ ? error_ : renderer_.law_error(); }
+  /// Whether it threw something. Without touching the exception.
+  bool has_failed() const noexcept { return error_ || renderer_.law_error(); }
 
  private:
+  void ask(DeviceState state) noexcept;
+
   HapticRenderer& renderer_;
+  double peak_force_;  ///< [N]
   FeedbackMode mode_;
+  ForceLaw law_;
+  VelocityEstimator velocity_;
+  double time_;  ///< of the last estimate [s]
   bool measure_;
+  std::exception_ptr error_;
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
   RecordedSample sample_;
 };
+
+/// An empty recording of a page written at the rate of a renderer.
+Recording recording_for(const PracticePage& page, const HapticRenderer& renderer, FeedbackMode mode,
+                        const ForceLaw& law);
 
 /// Of the strokes of the page, by characters.
 double share_written(const PracticePage& page, int character, int stroke) noexcept;

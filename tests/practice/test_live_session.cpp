@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -183,6 +184,20 @@ TEST_CASE("after a session the force is zero and the device still open") {
   CHECK(device.last_force.isZero(0.0));
   CHECK(result.statistics.ticks + result.statistics.idle_ticks == device.ticks());  // nothing has moved since
   CHECK(device.read().status == DeviceStatus::ok);
+}
+
+TEST_CASE("a law that throws ends a live session, whose recording is kept") {
+  const PracticePage page = page_of("十");
+  HeldDevice device(page);
+  LiveOptions options = watched(device);
+  options.renderer.guidance.force = [](const GuidanceInput& in) -> Point {
+    if (in.arc > 0.002) throw std::runtime_error("out of ideas");
+    return Point::Zero();
+  };
+  const LiveResult result = write_with_device(page, device, options);
+  CHECK_THROWS_WITH(std::rethrow_exception(result.error), "out of ideas");
+  CHECK(device.last_force.isZero(0.0));
+  CHECK(result.recording.samples.size() > 100);
 }
 
 TEST_CASE("ticks since the last call of watch are recorded too") {

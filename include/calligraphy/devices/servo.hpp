@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -61,7 +62,8 @@ class ForceLaw {
   /// Whether there is a function or a renderer to ask.
   explicit operator bool() const noexcept { return static_cast<bool>(ask_); }
 
-  double rate = 0.0;  ///< at which it must be asked; 0: any [Hz]
+  double rate = 0.0;         ///< at which it must be asked; 0: any [Hz]
+  std::string name = "own";  ///< in recordings, best with its parameters: "wall: 300 N/m"
 
  private:
   std::function<Eigen::Vector3d(const DeviceState&)> ask_;

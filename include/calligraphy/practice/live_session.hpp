@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -34,6 +35,7 @@ struct LiveView {
 struct LiveOptions {
   FeedbackMode mode = FeedbackMode::force;  ///< whether the device receives the renderer's force
   RendererOptions renderer;                 ///< of the renderer; the servo loop runs at its rate
+  ForceLaw law = {};                        ///< as SessionOptions::law
   /// Device axes to page axes; by default upright_page() of the page. On a desk: desk_page().
   std::optional<MotionMapping> mapping = std::nullopt;
   ServoLoopOptions servo;                                       ///< of the servo loop
@@ -49,6 +51,7 @@ struct LiveResult {
   ServoStatistics statistics;         ///< of the servo loop, from its start
   std::uint64_t dropped = 0;          ///< ticks missing from the recording because the calling thread was too late
   std::vector<std::string> warnings;  ///< as of ServoLoop::start()
+  std::exception_ptr error;           ///< what a law of the options threw, which ended the session; null: nothing
 };
 
 /// The capabilities with their forces limited to a peak [N], which may be infinite.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -33,10 +34,11 @@ struct Recording {
   double rate = 1000.0;                 ///< samples per second [Hz]
   std::vector<RecordedSample> samples;  ///< one per tick, in order
   std::uint32_t page = 0;               ///< page_id() of the page that was written; 0: unknown
+  std::string law;                      ///< of the force, with its parameters: "linear: 600 N/m"; empty: unknown
 };
 
-/// Writes comma-separated values: the first line names columns and units, the second, a comment, gives the rate and the
-/// page. Numbers are independent of the locale and in the shortest form that reads back exactly; events are the sum of
+/// Writes comma-separated values: the first line names columns and units, the second, a comment, gives the rate, the
+/// page and the law, with spaces for its control characters. Numbers are independent of the locale and in the shortest form that reads back exactly; events are the sum of
 /// TickEvent's bits.
 void write_recording(std::ostream& out, const Recording& recording);
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include <calligraphy/devices/replay_device.hpp>
+#include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/pen_trace.hpp>
@@ -30,6 +31,9 @@ struct SessionOptions {
   FeedbackMode mode = FeedbackMode::force;  ///< whether the device receives the renderer's force
   Capabilities device;                      ///< the simulated device, such as device_profile("desktop")
   RendererOptions renderer;                 ///< its servo rate is that of the loop
+  /// The whole force on the device, in place of the renderer's, which still follows the pen: for what is no guidance. It
+  /// is asked as by a Servo, at the rate of the loop. None: the renderer's.
+  ForceLaw law = {};
   /// Device axes to page axes; by default upright_page() of the page. On a desk: desk_page(). With a motion scale K_S
   /// the hand moves 1 / K_S times as far as the pen on the page, and feels K_S^2 times its stiffness:
   /// RendererOptions::for_device(device, K_S) makes up for that.
@@ -48,7 +52,7 @@ using PenMotion = std::function<std::optional<Intention>(const HapticTick& tick,
 
 /// Runs the loop: device.read, renderer.update, device.write, `motion`, device.advance. The grip of the skill holds the
 /// device; it starts above the centre of the page.
-/// @throws ValueError when an option is out of its domain
+/// @throws ValueError when an option is out of its domain; whatever a law of the options throws, which ends the session
 Recording run_session(const PracticePage& page, const SessionOptions& options, const PenMotion& motion);
 
 /// Writes the page once. Deterministic per seed, except for measured times.
@@ -61,7 +65,7 @@ Recording write_page(const PracticePage& page, const SessionOptions& options);
 Recording follow_trace(const PracticePage& page, const PenTrace& trace, const SessionOptions& options);
 
 /// Runs the renderer on recorded samples, as fast as possible and with no hand in the loop: what it would have
-/// rendered. Of the options only `mode`, `renderer`, `mapping`, `measure_ticks` and `progress` are used.
+/// rendered. Of the options only `mode`, `renderer`, `mapping`, `law`, `measure_ticks` and `progress` are used.
 /// @throws ValueError when an option is out of its domain
 Recording replay_page(const PracticePage& page, ReplayDevice& device, const SessionOptions& options);
 

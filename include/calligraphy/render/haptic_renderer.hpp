@@ -49,6 +49,8 @@ class HapticRenderer {
   /// due: the page is written, or the pen has not left the last stroke of the character yet.
   bool skip_stroke() noexcept { return sequencer_.skip(); }
 
+  /// What the guidance law says of itself.
+  const GuidanceTraits& law() const noexcept { return effective_.traits; }
   /// What the guidance law threw first since the restart; null: nothing. TickStatus::bad_law says when.
   const std::exception_ptr& law_error() const noexcept { return guidance_.error(); }
 

@@ -1,0 +1,65 @@
+#include "session_tick.hpp"
+
+#include <cmath>
+
+#include "base/monotonic_clock.hpp"
+
+namespace calligraphy {
+
+SessionTick::SessionTick(HapticRenderer& renderer, const Capabilities& device, FeedbackMode mode, const ForceLaw& law,
+                         bool measure)
+    : renderer_(renderer),
+      peak_force_(device.peak_force),
+      mode_(mode),
+      law_(law),
+      velocity_(device.velocity_cutoff),
+      time_(-1.0 / renderer.options().servo_rate),
+      measure_(measure) {}
+
+const HapticTick& SessionTick::update(const DeviceState& state) noexcept {
+  const double before = measure_ ? monotonic_seconds() : 0.0;
+  const HapticTick& tick = renderer_.update(state);
+  sample_ = {tick.time,  tick.device_point, tick.pen_tip,   tick.page_force, tick.state,
+             tick.events, tick.status,       tick.character, tick.stroke,     0.0F};
+  force_ = tick.force;
+  if (law_) ask(state);
+  if (mode_ == FeedbackMode::vision) force_ = sample_.force = Eigen::Vector3d::Zero();
+  if (measure_) sample_.tick_ns = static_cast<float>(1e9 * (monotonic_seconds() - before));
+  return tick;
+}
+
+/// As a servo does: of a sample that is good, with a velocity; no more than the device's peak, and nothing that is not
+/// finite.
+void SessionTick::ask(DeviceState state) noexcept {
+  force_ = sample_.force = Eigen::Vector3d::Zero();
+  if (sample_.status != TickStatus::ok || error_) return;
+  if (!state.velocity.allFinite()) {
+    state.velocity = velocity_.update(state.position, state.time - time_);
+    state.velocity_estimated = true;
+    time_ = state.time;
+  }
+  try {
+    force_ = law_(state);
+  } catch (...) {
+    error_ = std::current_exception();
+  }
+  const double size = force_.norm();
+  if (error_ || !std::isfinite(size)) {
+    sample_.status = TickStatus::bad_law;
+    force_ = Eigen::Vector3d::Zero();
+    return;
+  }
+  if (size > peak_force_) force_ *= peak_force_ / size;
+  sample_.force = renderer_.mapping().force_to_page(force_);
+}
+
+Recording recording_for(const PracticePage& page, const HapticRenderer& renderer, FeedbackMode mode,
+                        const ForceLaw& law) {
+  Recording recording;
+  recording.rate = renderer.options().servo_rate;
+  recording.page = page_id(page);
+  recording.law = mode == FeedbackMode::vision ? "none" : law ? law.name : renderer.law().name;
+  return recording;
+}
+
+}  // namespace calligraphy
