@@ -21,6 +21,7 @@ constexpr const char* usage =
     "usage: guidance_sweep [--cases N] [--seed S] [--threads T] [--json FILE]   a sweep; exit code 1 if any case "
     "fails\n"
     "       guidance_sweep --seed S --case K > FILE                             one case, its motion as CSV\n"
+    "       guidance_sweep --laws [--cases N] [--seed S] [--threads T]          laws of which nothing is known\n"
     "       guidance_sweep --issue                                              named cases that were once unstable\n";
 
 struct Group {
@@ -100,6 +101,28 @@ int replay(std::uint64_t seed, int index) {
   return result.fails() ? 1 : 0;
 }
 
+/// The same cases with laws that the renderer knows nothing of, or that lie.
+int sweep_laws(std::uint64_t seed, int count, int threads) {
+  std::printf("%-18s %7s %6s %6s %14s %7s\n", "law", "refused", "failed", "later", "most energy J", "worst N");
+  for (const char* const name : strange_laws) {
+    Group group;
+    double energy = 0.0, peak = 0.0;
+    const auto results = run_sweep(seed, count, threads, nullptr, [name](SweepCase& drawn) {
+      drawn.options.guidance.force = strange_law(name);
+    });
+    for (const SweepResult& result : results) {
+      group.refused += result.refused;
+      group.failed += result.fails();
+      group.later += result.fails_later;
+      energy = std::max(energy, result.energy);
+      peak = std::max(peak, result.peak_force);
+    }
+    std::printf("%-18s %7d %6d %6d %14.4f %7.2f\n", name, group.refused, group.failed, group.later, energy, peak);
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
 int sweep(std::uint64_t seed, int count, int threads, const std::string& json) {
   const bool watched = isatty(STDERR_FILENO) != 0;
   const auto results = run_sweep(seed, count, threads, [watched](double share) {
@@ -141,7 +164,7 @@ int sweep(std::uint64_t seed, int count, int threads, const std::string& json) {
 
 int main(int argc, char** argv) {
   Arguments arguments(argc, argv);
-  const bool issue = arguments.flag("--issue");
+  const bool issue = arguments.flag("--issue"), laws = arguments.flag("--laws");
   const auto seed = static_cast<std::uint64_t>(arguments.number("--seed", 1));
   const int one = static_cast<int>(arguments.number("--case", -1));
   const int count = static_cast<int>(arguments.number("--cases", 10000));
@@ -153,6 +176,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (issue) return print_issue_cases(threads) ? 0 : 1;
+    if (laws) return sweep_laws(seed, count, threads);
     if (one >= 0) return replay(seed, one);
     return sweep(seed, count, threads, json);
   } catch (const calligraphy::Error& error) {

@@ -307,6 +307,22 @@ SweepCase draw_case(std::uint64_t seed, int index) {
   return drawn;
 }
 
+GuidanceFactory strange_law(const std::string& name) {
+  GuidanceTraits traits;
+  traits.name = name;
+  const std::size_t comma = name.find(", stated");
+  if (comma != std::string::npos) traits.stiffness = 600.0;
+  const std::string kind = name.substr(0, comma);
+  if (kind == "spring") return {[](const GuidanceInput& in) -> Point { return 600.0 * in.share * in.way; }, traits};
+  if (kind == "stiff") return {[](const GuidanceInput& in) -> Point { return 5000.0 * in.way; }, traits};
+  if (kind == "along") return {[](const GuidanceInput& in) -> Point { return 2.0 * in.tangent; }, traits};
+  if (kind == "away") return {[](const GuidanceInput& in) -> Point { return -600.0 * in.way; }, traits};
+  if (kind == "undamped") {
+    return {[](const GuidanceInput& in) -> GuidanceTerms { return {600.0 * in.share * in.way}; }, traits};
+  }
+  throw ValueError("no such law: " + name);
+}
+
 SweepResult run_case(const SweepCase& drawn, const std::function<void(const SweepSample&)>& watch, double settle_time) {
   SweepResult result;
   const Character& character = built_in_characters().characters[static_cast<std::size_t>(drawn.character)];
@@ -347,6 +363,7 @@ SweepResult run_case(const SweepCase& drawn, const std::function<void(const Swee
   const double rate = drawn.device.update_rate;
   const double window = hand.ends() + settle_time, end = window + window_time;
   Extent motion, twin_motion, force;
+  double energy = 0.0;
   for (std::int64_t tick = 0; static_cast<double>(tick) < end * rate; ++tick) {
     const HapticTick& felt = renderer.update(device.read());
     device.write(felt.force);
@@ -364,7 +381,10 @@ SweepResult run_case(const SweepCase& drawn, const std::function<void(const Swee
       if (device.force().norm() > 1e-3) result.acted = true;
     }
     if (watch) watch({time, pen, other, felt_force, felt.state});
+    const Vector3d before = device.position();
     device.advance(1.0 / rate, guided);
+    energy += device.force().dot(device.position() - before);
+    result.energy = std::max(result.energy, energy);
     twin.advance(1.0 / rate, alone);
   }
   Vector3d twin_size = twin_motion.size();
@@ -380,12 +400,14 @@ SweepResult run_case(const SweepCase& drawn, const std::function<void(const Swee
 }
 
 std::vector<SweepResult> run_sweep(std::uint64_t seed, int count, int threads,
-                                   const std::function<void(double)>& progress) {
+                                   const std::function<void(double)>& progress,
+                                   const std::function<void(SweepCase&)>& change) {
   std::vector<SweepResult> results(static_cast<std::size_t>(count));
   parallel_for(
       results.size(), threads, progress ? progress : [](double) {},
       [&](std::size_t i) {
-        const SweepCase drawn = draw_case(seed, static_cast<int>(i));
+        SweepCase drawn = draw_case(seed, static_cast<int>(i));
+        if (change) change(drawn);
         results[i] = run_case(drawn);
         if (results[i].fails()) results[i].fails_later = run_case(drawn, nullptr, 5.0).fails();
       });

@@ -71,6 +71,7 @@ struct SweepResult {
   double force = 0.0;                                      ///< peak to peak in the window [N], largest of the axes
   double forgiven_force = 0.0;  ///< the same beyond the stiffness times the twin's own motion [N]
   double peak_force = 0.0;      ///< of the whole run [N]
+  double energy = 0.0;          ///< most net energy that the force had given the hand by any time [J]
   bool acted = false;           ///< the force in the window was ever other than zero
   bool fails_later = false;     ///< it fails, and from 5 to 6 s after the disturbance too: it does not just settle late
 
@@ -92,6 +93,14 @@ struct SweepResult {
 /// Case `index` of a seed; the other cases do not matter to it.
 SweepCase draw_case(std::uint64_t seed, int index);
 
+/// Guidance laws of which nothing is known, and how they behave: "stiff", 5,000 N/m towards the stroke; "along", 2 N
+/// along it; "away", 600 N/m away from it; "undamped", 600 N/m towards it without a damper; "spring", a good one of 600
+/// N/m. With ", stated" they state 600 N/m, whether that is true or not. Others: as drawn.
+inline constexpr std::array strange_laws = {"spring", "spring, stated", "undamped", "undamped, stated", "stiff", "stiff, stated",
+                                            "along", "along, stated", "away", "away, stated"};
+/// @throws ValueError unless it is one of these
+calligraphy::GuidanceFactory strange_law(const std::string& name);
+
 /// One instant of a case, for a table [s, m and N in page axes].
 struct SweepSample {
   double time;
@@ -109,7 +118,9 @@ std::string describe(const SweepCase& drawn);
 std::string describe(const SweepResult& result);
 
 /// Cases 0 to `count` - 1 of a seed, in order.
+/// `change`, if any, is made to each as drawn.
 std::vector<SweepResult> run_sweep(std::uint64_t seed, int count, int threads,
-                                   const std::function<void(double)>& progress = nullptr);
+                                   const std::function<void(double)>& progress = nullptr,
+                                   const std::function<void(SweepCase&)>& change = nullptr);
 
 }  // namespace calligraphy_test

@@ -141,6 +141,18 @@ TEST_CASE("every named case of guidance that once drove the pen comes to rest", 
   }
 }
 
+TEST_CASE("a law of which nothing is known gives no more than the presumed budget, however it misbehaves", "[stability]") {
+  for (const char* const name : {"stiff", "along", "away"}) {
+    const auto results = run_sweep(14, drawn_cases / 3, 0, nullptr,
+                                   [&](SweepCase& drawn) { drawn.options.guidance.force = strange_law(name); });
+    for (const SweepResult& result : results) {
+      INFO(name << ": " << describe(result) << ", " << result.energy << " J");
+      CHECK_FALSE(result.refused);
+      CHECK(result.energy <= 0.1);
+    }
+  }
+}
+
 TEST_CASE("no hand gets more energy than the budget, whatever it tries and however the ticks come", "[stability]") {
   const auto profiles = calligraphy::device_profiles();
   for (int i = 0; i < energy_runs; ++i) {
