@@ -10,8 +10,10 @@
 #include <calligraphy/c/calligraphy.h>
 #include <calligraphy/calligraphy.hpp>
 #include <calligraphy/devices/detail/flush_denormals.hpp>
-#include <calligraphy/render/detail/energy_budget.hpp>
 
+#include "render/energy_budget.hpp"
+#include "render/force_limiter.hpp"
+#include "render/thermal_budget.hpp"
 #include "timing.hpp"
 
 namespace {
@@ -287,8 +289,7 @@ BENCHMARK(stage_limiter);
 
 /// Not a time: object sizes, recorded with the times.
 void bytes_per_object(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(sizeof(HapticRenderer));
-  state.counters["HapticRenderer"] = sizeof(HapticRenderer);
+  for (auto _ : state) benchmark::DoNotOptimize(sizeof(HapticTick));
   state.counters["EnergyBudget"] = sizeof(EnergyBudget);
   state.counters["ThermalBudget"] = sizeof(ThermalBudget);
   state.counters["PaperFriction"] = sizeof(PaperFriction);

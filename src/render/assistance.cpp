@@ -1,4 +1,4 @@
-#include <calligraphy/render/detail/assistance.hpp>
+#include "assistance.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <calligraphy/render/assist_policy.hpp>
-#include <calligraphy/render/detail/writer_state.hpp>
+
+#include "writer_state.hpp"
 
 namespace calligraphy {
 

@@ -1,13 +1,13 @@
-#include <calligraphy/render/detail/effective_options.hpp>
+#include "effective_options.hpp"
 
 #include <cmath>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/render/detail/energy_observer.hpp>
-#include <calligraphy/render/detail/prepared_page.hpp>
 
 #include "base/require.hpp"
 #include "exact_pen.hpp"
+#include "prepared_page.hpp"
 
 namespace calligraphy {
 namespace {

@@ -1,4 +1,4 @@
-#include <calligraphy/render/detail/energy_budget.hpp>
+#include "energy_budget.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,9 +6,9 @@
 #include <cstddef>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/render/detail/stroke_sequencer.hpp>
 
 #include "base/require.hpp"
+#include "stroke_sequencer.hpp"
 
 namespace calligraphy {
 namespace {

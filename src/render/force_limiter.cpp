@@ -1,4 +1,4 @@
-#include <calligraphy/render/detail/force_limiter.hpp>
+#include "force_limiter.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <calligraphy/render/detail/force_output.hpp>
+#include "force_output.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,14 +4,15 @@
 #include <Eigen/Core>
 
 #include <calligraphy/devices/capabilities.hpp>
-#include <calligraphy/render/detail/energy_budget.hpp>
-#include <calligraphy/render/detail/force_limiter.hpp>
-#include <calligraphy/render/detail/guidance.hpp>
-#include <calligraphy/render/detail/paper.hpp>
-#include <calligraphy/render/detail/pen_state.hpp>
-#include <calligraphy/render/detail/thermal_budget.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/renderer_options.hpp>
+
+#include "energy_budget.hpp"
+#include "force_limiter.hpp"
+#include "guidance.hpp"
+#include "paper.hpp"
+#include "pen_state.hpp"
+#include "thermal_budget.hpp"
 
 namespace calligraphy {
 

@@ -1,4 +1,4 @@
-#include <calligraphy/render/detail/guidance.hpp>
+#include "guidance.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,12 +4,13 @@
 #include <exception>
 #include <memory>
 
-#include <calligraphy/render/detail/assistance.hpp>
-#include <calligraphy/render/detail/effective_options.hpp>
-#include <calligraphy/render/detail/pen_state.hpp>
-#include <calligraphy/render/detail/released_spring.hpp>
-#include <calligraphy/render/detail/writer_state.hpp>
 #include <calligraphy/render/guidance_law.hpp>
+
+#include "assistance.hpp"
+#include "effective_options.hpp"
+#include "pen_state.hpp"
+#include "released_spring.hpp"
+#include "writer_state.hpp"
 
 namespace calligraphy {
 

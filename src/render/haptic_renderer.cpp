@@ -2,65 +2,114 @@
 
 #include <utility>
 
+#include "effective_options.hpp"
+#include "force_output.hpp"
+#include "guidance.hpp"
+#include "paper.hpp"
+#include "pen_sensor.hpp"
+#include "stroke_sequencer.hpp"
+
 namespace calligraphy {
+namespace {
+
+const HapticTick nothing;
+
+}  // namespace
+
+/// In the order of a tick.
+struct HapticRenderer::Stages {
+  Stages(std::vector<PlacedCharacter> page, const MotionMapping& to_page, const Capabilities& capabilities,
+         const RendererOptions& options)
+      : mapping(to_page),
+        effective(effective_options(options, page, mapping, capabilities)),
+        guidance(effective, guidance_law(effective, capabilities)),
+        sensor(effective.options, mapping, capabilities),
+        sequencer(std::move(page), effective.options, capabilities, mapping, effective.traits.lets_go),
+        paper(effective.options),
+        output(effective.options, capabilities, mapping, effective.law_stiffness) {}
+
+  void report(const PenState& pen, const WriterState& writer, const GuidanceForce& led, const PaperForce& pressed,
+              const SentForce& sent) noexcept;
+
+  MotionMapping mapping;
+  EffectiveOptions effective;
+  Guidance guidance;
+  PenSensor sensor;
+  StrokeSequencer sequencer;
+  Paper paper;
+  ForceOutput output;
+  HapticTick tick;
+};
 
 HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping,
                                const Capabilities& capabilities, const RendererOptions& options)
-    : mapping_(mapping),
-      effective_(effective_options(options, page, mapping, capabilities)),
-      guidance_(effective_, guidance_law(effective_, capabilities)),
-      sensor_(effective_.options, mapping, capabilities),
-      sequencer_(std::move(page), effective_.options, capabilities, mapping, effective_.traits.lets_go),
-      paper_(effective_.options),
-      output_(effective_.options, capabilities, mapping, effective_.law_stiffness) {}
+    : stages_(std::make_unique<Stages>(std::move(page), mapping, capabilities, options)) {}
+
+HapticRenderer::HapticRenderer(HapticRenderer&&) noexcept = default;
+HapticRenderer& HapticRenderer::operator=(HapticRenderer&&) noexcept = default;
+HapticRenderer::~HapticRenderer() = default;
 
 void HapticRenderer::restart() noexcept {
-  sensor_.restart();
-  sequencer_.restart();
-  guidance_.restart();
-  paper_.release();
-  output_.restart();
-  tick_ = {};
+  stages_->sensor.restart();
+  stages_->sequencer.restart();
+  stages_->guidance.restart();
+  stages_->paper.release();
+  stages_->output.restart();
+  stages_->tick = {};
 }
 
 /// Compiled into one piece with all that it calls in this component, except for what happens once in a stroke
 /// (gnu::noinline): calls of small functions took a fifth of a tick.
 [[gnu::flatten]] const HapticTick& HapticRenderer::update(const DeviceState& sample) noexcept {
-  PenState& pen = sensor_.update(sample, output_.last().device);
-  const WriterState& writer = sequencer_.update(pen);
-  const GuidanceForce& guidance = guidance_.update(pen, writer, output_.last().guidance);
-  const PaperForce& paper = paper_.update(pen, writer, output_.last().page.z());
-  const SentForce& sent = output_.update(pen, guidance, paper);
-  report(pen, writer, guidance, paper, sent);
-  return tick_;
+  if (!stages_) return nothing;
+  auto& [mapping, effective, guidance, sensor, sequencer, paper, output, tick] = *stages_;
+  PenState& pen = sensor.update(sample, output.last().device);
+  const WriterState& writer = sequencer.update(pen);
+  const GuidanceForce& led = guidance.update(pen, writer, output.last().guidance);
+  const PaperForce& pressed = paper.update(pen, writer, output.last().page.z());
+  const SentForce& sent = output.update(pen, led, pressed);
+  stages_->report(pen, writer, led, pressed, sent);
+  return tick;
 }
 
-void HapticRenderer::report(const PenState& pen, const WriterState& writer, const GuidanceForce& guidance,
-                            const PaperForce& paper, const SentForce& sent) noexcept {
-  tick_.time = pen.time;
-  tick_.status = pen.status;
-  tick_.state = writer.state;
-  tick_.events = writer.events;
-  tick_.character = writer.character;
-  tick_.stroke = writer.stroke;
-  tick_.device_point = pen.device_point;
-  tick_.pen_tip = pen.tip;
-  tick_.penetration = pen.penetration;
-  if (writer.phase != WritingPhase::lifted || writer.events != TickEvent::none) tick_.contact = writer.contact;
-  tick_.covered = writer.covered;
-  tick_.hint = hint_in(writer.phase);
-  if (sent.is_warm && tick_.hint == WritingHint::none) tick_.hint = WritingHint::warm_motors;
-  tick_.to_start = writer.to_start;
-  tick_.attraction = guidance.attraction;
-  tick_.wrong_way = guidance.wrong_way;
-  tick_.friction = paper.friction;
-  tick_.normal = paper.normal + guidance.normal;
-  tick_.viscous = sent.viscous;
-  tick_.assistance = guidance.assistance;
-  tick_.energy_given = sent.energy_given;
-  tick_.heat = sent.heat;
-  tick_.page_force = sent.page;
-  tick_.force = sent.device;
+bool HapticRenderer::skip_stroke() noexcept { return stages_->sequencer.skip(); }
+const HapticTick& HapticRenderer::last() const noexcept { return stages_->tick; }
+const GuidanceTraits& HapticRenderer::law() const noexcept { return stages_->effective.traits; }
+const std::exception_ptr& HapticRenderer::law_error() const noexcept { return stages_->guidance.error(); }
+const RendererOptions& HapticRenderer::options() const noexcept { return stages_->effective.options; }
+const std::vector<std::string>& HapticRenderer::clipped() const noexcept { return stages_->effective.clipped; }
+const MotionMapping& HapticRenderer::mapping() const noexcept { return stages_->mapping; }
+const std::vector<PlacedCharacter>& HapticRenderer::page() const noexcept { return stages_->sequencer.page(); }
+double HapticRenderer::max_force_step() const noexcept {
+  return stages_->output.max_step() * stages_->mapping.scale;
+}
+
+void HapticRenderer::Stages::report(const PenState& pen, const WriterState& writer, const GuidanceForce& led,
+                                    const PaperForce& pressed, const SentForce& sent) noexcept {
+  tick.time = pen.time;
+  tick.status = pen.status;
+  tick.state = writer.state;
+  tick.events = writer.events;
+  tick.character = writer.character;
+  tick.stroke = writer.stroke;
+  tick.device_point = pen.device_point;
+  tick.pen_tip = pen.tip;
+  tick.penetration = pen.penetration;
+  if (writer.phase != WritingPhase::lifted || writer.events != TickEvent::none) tick.contact = writer.contact;
+  tick.covered = writer.covered;
+  tick.hint = hint_in(writer.phase);
+  if (sent.is_warm && tick.hint == WritingHint::none) tick.hint = WritingHint::warm_motors;
+  tick.to_start = writer.to_start;
+  tick.attraction = led.attraction;
+  tick.wrong_way = led.wrong_way;
+  tick.friction = pressed.friction;
+  tick.normal = pressed.normal + led.normal;
+  tick.viscous = sent.viscous;
+  tick.assistance = led.assistance;
+  tick.energy_given = sent.energy_given;
+  tick.heat = sent.heat;
+  tick.page_force = sent.page;
+  tick.force = sent.device;
 }
 
 }  // namespace calligraphy

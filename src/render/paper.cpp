@@ -1,4 +1,4 @@
-#include <calligraphy/render/detail/paper.hpp>
+#include "paper.hpp"
 
 #include <algorithm>
 #include <cmath>

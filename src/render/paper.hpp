@@ -3,10 +3,11 @@
 
 #include <Eigen/Core>
 
-#include <calligraphy/render/detail/pen_state.hpp>
-#include <calligraphy/render/detail/writer_state.hpp>
 #include <calligraphy/render/paper_friction.hpp>
 #include <calligraphy/render/renderer_options.hpp>
+
+#include "pen_state.hpp"
+#include "writer_state.hpp"
 
 namespace calligraphy {
 

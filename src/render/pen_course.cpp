@@ -1,4 +1,4 @@
-#include <calligraphy/render/detail/pen_course.hpp>
+#include "pen_course.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include <calligraphy/render/detail/pen_sensor.hpp>
+#include "pen_sensor.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -11,10 +11,11 @@
 #include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/devices/velocity_estimator.hpp>
-#include <calligraphy/render/detail/pen_course.hpp>
-#include <calligraphy/render/detail/pen_state.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/renderer_options.hpp>
+
+#include "pen_course.hpp"
+#include "pen_state.hpp"
 
 namespace calligraphy {
 

@@ -1,4 +1,4 @@
-#include <calligraphy/render/detail/prepared_page.hpp>
+#include "prepared_page.hpp"
 
 #include <utility>
 

@@ -8,9 +8,10 @@
 
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/collision/placed_character.hpp>
-#include <calligraphy/render/detail/stroke_capture.hpp>
-#include <calligraphy/render/detail/stroke_follower.hpp>
 #include <calligraphy/render/renderer_options.hpp>
+
+#include "stroke_capture.hpp"
+#include "stroke_follower.hpp"
 
 namespace calligraphy {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/render/detail/effective_options.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
 #include "base/require.hpp"
+#include "effective_options.hpp"
 
 namespace calligraphy {
 namespace {

@@ -1,4 +1,4 @@
-#include <calligraphy/render/detail/stroke_capture.hpp>
+#include "stroke_capture.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <calligraphy/render/detail/stroke_follower.hpp>
+#include "stroke_follower.hpp"
 
 #include <algorithm>
 #include <bit>

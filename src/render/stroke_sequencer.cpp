@@ -1,4 +1,4 @@
-#include <calligraphy/render/detail/stroke_sequencer.hpp>
+#include "stroke_sequencer.hpp"
 
 #include <algorithm>
 #include <cstddef>

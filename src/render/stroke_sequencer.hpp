@@ -4,13 +4,14 @@
 #include <vector>
 
 #include <calligraphy/devices/capabilities.hpp>
-#include <calligraphy/render/detail/pen_state.hpp>
-#include <calligraphy/render/detail/prepared_page.hpp>
-#include <calligraphy/render/detail/stroke_capture.hpp>
-#include <calligraphy/render/detail/writer_state.hpp>
 #include <calligraphy/render/interaction_state.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/renderer_options.hpp>
+
+#include "pen_state.hpp"
+#include "prepared_page.hpp"
+#include "stroke_capture.hpp"
+#include "writer_state.hpp"
 
 namespace calligraphy {
 

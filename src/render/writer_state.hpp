@@ -2,9 +2,10 @@
 #pragma once
 
 #include <calligraphy/collision/active_stroke.hpp>
-#include <calligraphy/render/detail/writing_phase.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/interaction_state.hpp>
+
+#include "writing_phase.hpp"
 
 namespace calligraphy {
 

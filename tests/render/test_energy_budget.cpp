@@ -11,11 +11,11 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
-#include <calligraphy/render/detail/energy_budget.hpp>
 #include <calligraphy/render/detail/energy_observer.hpp>
-#include <calligraphy/render/detail/force_limiter.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 
+#include "render/energy_budget.hpp"
+#include "render/force_limiter.hpp"
 #include "../allocation_counter.hpp"
 #include "../hard_cases.hpp"
 #include "../sanitized.hpp"

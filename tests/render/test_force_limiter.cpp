@@ -6,8 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include <calligraphy/render/detail/force_limiter.hpp>
-
+#include "render/force_limiter.hpp"
 #include "../hard_cases.hpp"
 
 using namespace calligraphy;

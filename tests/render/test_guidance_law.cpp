@@ -245,3 +245,14 @@ TEST_CASE("a tick with an own law does not allocate", "[render]") {
   }
   CHECK(most == 0);
 }
+
+TEST_CASE("a renderer that was moved from gives no force", "[render]") {
+  HapticRenderer renderer = renderer_of(U'一', linear_guidance);
+  ScriptedPen pen(renderer);
+  press_beside_start(pen, renderer);
+  CHECK(renderer.last().force.norm() > 0.1);
+  HapticRenderer other = std::move(renderer);
+  const HapticTick& tick = renderer.update({});  // NOLINT(bugprone-use-after-move)
+  CHECK((tick.force.isZero(0.0) && tick.page_force.isZero(0.0)));
+  CHECK(other.last().force.norm() > 0.1);
+}

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include <calligraphy/devices/device_profiles.hpp>
-#include <calligraphy/render/detail/pen_sensor.hpp>
 
+#include "render/pen_sensor.hpp"
 #include "../hard_cases.hpp"
 
 namespace pen_sensor_tests {

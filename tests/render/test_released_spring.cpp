@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <calligraphy/render/detail/released_spring.hpp>
-
+#include "render/released_spring.hpp"
 #include "../hard_cases.hpp"
 #include "../held_mass.hpp"
 

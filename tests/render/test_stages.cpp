@@ -13,6 +13,7 @@
 #include "../hard_cases.hpp"
 #include "../sanitized.hpp"
 #include "../scripted_pen.hpp"
+#include "render/force_limiter.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::beside;

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
-#include <calligraphy/render/detail/stroke_capture.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 
+#include "render/stroke_capture.hpp"
 #include "../allocation_counter.hpp"
 #include "../pen_path.hpp"
 

@@ -6,8 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include <calligraphy/render/detail/stroke_follower.hpp>
-
+#include "render/stroke_follower.hpp"
 #include "../pen_path.hpp"
 
 namespace stroke_follower_tests {

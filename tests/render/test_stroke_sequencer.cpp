@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <calligraphy/render/detail/stroke_sequencer.hpp>
-
+#include "render/stroke_sequencer.hpp"
 #include "../hard_cases.hpp"
 #include "../scripted_pen.hpp"
 

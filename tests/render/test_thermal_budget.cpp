@@ -7,7 +7,8 @@
 #include <vector>
 
 #include <calligraphy/base/random.hpp>
-#include <calligraphy/render/detail/thermal_budget.hpp>
+
+#include "render/thermal_budget.hpp"
 
 using namespace calligraphy;
 

@@ -2,16 +2,14 @@
 #pragma once
 
 #include <exception>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include <calligraphy/collision/placed_character.hpp>
+#include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/devices/device_state.hpp>
-#include <calligraphy/render/detail/effective_options.hpp>
-#include <calligraphy/render/detail/force_output.hpp>
-#include <calligraphy/render/detail/guidance.hpp>
-#include <calligraphy/render/detail/paper.hpp>
-#include <calligraphy/render/detail/pen_sensor.hpp>
-#include <calligraphy/render/detail/stroke_sequencer.hpp>
+#include <calligraphy/render/guidance_law.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/renderer_options.hpp>
@@ -30,10 +28,10 @@ class HapticRenderer {
   HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping, const Capabilities& capabilities,
                  const RendererOptions& options = {});
 
-  /// One that was moved from may only be destroyed or assigned to.
-  HapticRenderer(HapticRenderer&&) noexcept = default;
-  /// Likewise.
-  HapticRenderer& operator=(HapticRenderer&&) noexcept = default;
+  HapticRenderer(HapticRenderer&&) noexcept;
+  /// Of one that was moved from, update() gives no force; otherwise it may only be destroyed or assigned to.
+  HapticRenderer& operator=(HapticRenderer&&) noexcept;
+  ~HapticRenderer();
 
   /// Processes one sample. Write `force` of the result to the device.
   const HapticTick& update(const DeviceState& sample) noexcept;
@@ -47,40 +45,32 @@ class HapticRenderer {
   /// last() shows it from the next update() on. For the thread that calls update(), between two calls; never allocates.
   /// Returns false, and does nothing, while the pen writes the stroke (InteractionState::writing) and where none is
   /// due: the page is written, or the pen has not left the last stroke of the character yet.
-  bool skip_stroke() noexcept { return sequencer_.skip(); }
+  bool skip_stroke() noexcept;
 
   /// What the guidance law says of itself.
-  const GuidanceTraits& law() const noexcept { return effective_.traits; }
+  const GuidanceTraits& law() const noexcept;
   /// What the guidance law threw first since the restart; null: nothing. TickStatus::bad_law says when.
-  const std::exception_ptr& law_error() const noexcept { return guidance_.error(); }
+  const std::exception_ptr& law_error() const noexcept;
 
   /// What the last update() returned. For the thread that calls update() alone: for a display, publish it through a
   /// LatestValue.
-  const HapticTick& last() const noexcept { return tick_; }
+  const HapticTick& last() const noexcept;
   /// Effective options: with StiffnessCheck::clip, stiffnesses may be lower than requested.
-  const RendererOptions& options() const noexcept { return effective_.options; }
+  const RendererOptions& options() const noexcept;
   /// What was clipped, one line per value, with the reason.
-  const std::vector<std::string>& clipped() const noexcept { return effective_.clipped; }
+  const std::vector<std::string>& clipped() const noexcept;
   /// From device axes to page axes, as given to the constructor.
-  const MotionMapping& mapping() const noexcept { return mapping_; }
+  const MotionMapping& mapping() const noexcept;
   /// The characters to be written, in this order.
-  const std::vector<PlacedCharacter>& page() const noexcept { return sequencer_.page(); }
+  const std::vector<PlacedCharacter>& page() const noexcept;
   /// Maximum change of the force per tick [N], reached by a pen of 1 m/s or more; a budget of energy or heat may cut
   /// the force faster. Infinite when the rate is not limited.
-  double max_force_step() const noexcept { return output_.max_step() * mapping_.scale; }
+  double max_force_step() const noexcept;
 
  private:
-  void report(const PenState& pen, const WriterState& writer, const GuidanceForce& guidance, const PaperForce& paper,
-              const SentForce& sent) noexcept;
+  struct Stages;
 
-  MotionMapping mapping_;
-  EffectiveOptions effective_;
-  Guidance guidance_;
-  PenSensor sensor_;
-  StrokeSequencer sequencer_;
-  Paper paper_;
-  ForceOutput output_;
-  HapticTick tick_;
+  std::unique_ptr<Stages> stages_;  ///< null: moved from
 };
 
 }  // namespace calligraphy
