@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
 #include "structs.hpp"
@@ -96,8 +97,9 @@ struct ToC {
     here = static_cast<std::int32_t>(there);
   }
   void operator()(const char*, std::int32_t& here, const GuidanceFactory& there) const {
-    here = static_cast<std::int32_t>(std::ranges::find_if(guidance_laws, [&](auto law) { return there.is(law); }) -
-                                     guidance_laws);
+    const auto is_this = [&](auto law) { return there.is(law); };
+    here = static_cast<std::int32_t>(
+        std::find_if(std::begin(guidance_laws), std::end(guidance_laws), is_this) - guidance_laws);
   }
   template <class Choice>
   void operator()(const char*, std::int32_t& here, Choice there, Choice) const {
