@@ -18,6 +18,7 @@ MEMBERS = {
     "int32_t": ("Int32", 4), "uint32_t": ("Uint32", 4), "uint64_t": ("BigUint64", 8), "double": ("Float64", 8),
     "char": ("char", 1),
 }
+POINTER = ("Uint32", 4)  # an address
 # Types of a last parameter to which a function writes a single value, which JavaScript returns.
 RESULTS = {
     r"calligraphy_\w+\*\*": "handle", r"u?int32_t\*": "number", r"size_t\*": "number", r"const char\*\*": "text",
@@ -50,10 +51,10 @@ def layout(struct, body):
     """The size of a struct, and its members: type, offset and, of an array, number of elements."""
     members, end, alignment = {}, 0, 1
     for line in filter(None, (part.strip() for part in body.split(";"))):
-        member = re.fullmatch(r"(\w+) (\w+)(?:\[(\d+)\])?", line)
-        if not member or member[1] not in MEMBERS:
+        member = re.fullmatch(r"(?:const )?(\w+\*?) (\w+)(?:\[(\d+)\])?", line)
+        if not member or not (member[1] in MEMBERS or member[1].endswith("*")):
             sys.exit(f"{struct}: cannot lay out the member `{line}`; known types: {', '.join(MEMBERS)}")
-        kind, size = MEMBERS[member[1]]
+        kind, size = MEMBERS.get(member[1], POINTER)
         offset = -(-end // size) * size
         members[member[2]] = [kind, offset] + ([int(member[3])] if member[3] else [])
         end = offset + size * int(member[3] or 1)

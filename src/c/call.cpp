@@ -79,6 +79,10 @@ const char* calligraphy_version(void) { return CALLIGRAPHY_LIBRARY_VERSION; }
 const char* calligraphy_last_error(void) { return calligraphy::c::last_error; }
 
 calligraphy_status calligraphy_free(void* handle) {
-  if (!handle || calligraphy::c::remove_handle(handle)) return CALLIGRAPHY_OK;
-  return calligraphy::c::refuse(CALLIGRAPHY_INVALID_HANDLE, "%p: no handle, or it was freed already", handle);
+  using namespace calligraphy::c;
+  if (kind_of_handle(handle) == Kind::stroke) {
+    return refuse(CALLIGRAPHY_INVALID_HANDLE, "%p: a stroke is freed with its renderer", handle);
+  }
+  if (!handle || remove_handle(handle)) return CALLIGRAPHY_OK;
+  return refuse(CALLIGRAPHY_INVALID_HANDLE, "%p: no handle, or it was freed already", handle);
 }

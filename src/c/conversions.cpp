@@ -4,7 +4,9 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <string>
 
+#include "guidance.hpp"
 #include "structs.hpp"
 
 namespace calligraphy::c {
@@ -19,7 +21,7 @@ void each_option(C& c, Options& o, const Exchange& exchange) {
   choice("rules", c.rules, o.rules, Rules::wang2006);
   choice("stiffness_check", c.stiffness_check, o.stiffness_check, StiffnessCheck::off);
   choice("nearest_method", c.nearest_method, o.nearest.method, NearestPointMethod::wang2006);
-  exchange("guidance_law", c.guidance_law, o.guidance.force);
+  exchange("guidance_law", c.guidance_law, c.guidance_functions, o.guidance.force);
 
   exchange(c.nearest_tolerance, o.nearest.tolerance);
   exchange(c.nearest_samples, o.nearest.samples);
@@ -74,15 +76,23 @@ void each_option(C& c, Options& o, const Exchange& exchange) {
   exchange(c.energy_max_gap, o.energy.max_gap);
 }
 
-/// By calligraphy_guidance_law.
+/// By calligraphy_guidance_law, before CALLIGRAPHY_GUIDANCE_OWN.
 constexpr GuidanceFactory::Make* guidance_laws[] = {linear_guidance, saturating_guidance, printed_guidance};
 
 struct FromC {
   void operator()(double here, double& there) const { there = here; }
   void operator()(std::int32_t here, int& there) const { there = here; }
   void operator()(std::int32_t here, bool& there) const { there = here != 0; }
-  void operator()(const char* name, std::int32_t here, GuidanceFactory& there) const {
-    there = guidance_laws[enumeration(name, here, CALLIGRAPHY_GUIDANCE_WANG2006)];
+  void operator()(const char* name, std::int32_t here, const calligraphy_guidance_functions* functions,
+                  GuidanceFactory& there) const {
+    if (enumeration(name, here, CALLIGRAPHY_GUIDANCE_OWN) == CALLIGRAPHY_GUIDANCE_OWN) {
+      there = guidance_of(functions);
+    } else if (functions) {
+      throw Refusal(CALLIGRAPHY_INVALID_VALUE, std::string("guidance_functions are set, but ") + name + " = " +
+                                                   std::to_string(here) + " is not CALLIGRAPHY_GUIDANCE_OWN");
+    } else {
+      there = guidance_laws[here];
+    }
   }
   template <class Choice>
   void operator()(const char* name, std::int32_t here, Choice& there, Choice last) const {
@@ -96,7 +106,9 @@ struct ToC {
   void operator()(std::int32_t& here, Value there) const {
     here = static_cast<std::int32_t>(there);
   }
-  void operator()(const char*, std::int32_t& here, const GuidanceFactory& there) const {
+  void operator()(const char*, std::int32_t& here, const calligraphy_guidance_functions*& functions,
+                  const GuidanceFactory& there) const {
+    functions = nullptr;
     const auto is_this = [&](auto law) { return there.is(law); };
     here = static_cast<std::int32_t>(
         std::find_if(std::begin(guidance_laws), std::end(guidance_laws), is_this) - guidance_laws);

@@ -8,7 +8,7 @@
 namespace calligraphy::c {
 
 /// What a handle is of; in its lowest bits, none of which is zero for all of them.
-enum class Kind : std::uintptr_t { set = 1, page, device, renderer, servo, match, recording, score };
+enum class Kind : std::uintptr_t { set = 1, page, device, renderer, servo, match, recording, score, stroke };
 
 /// "set", "page" ...
 const char* to_string(Kind kind) noexcept;

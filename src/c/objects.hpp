@@ -72,6 +72,11 @@ struct RecordingObject {
   Recording recording;
 };
 
+/// The stroke that a guidance law was told of last.
+struct StrokeObject {
+  const ActiveStroke* stroke = nullptr;  ///< of the law's renderer
+};
+
 /// By character.
 using Scores = std::vector<CharacterScore>;
 
@@ -91,6 +96,8 @@ template <>
 inline constexpr Kind kind_of<RecordingObject> = Kind::recording;
 template <>
 inline constexpr Kind kind_of<Scores> = Kind::score;
+template <>
+inline constexpr Kind kind_of<StrokeObject> = Kind::stroke;
 
 /// A character of a set in its standard order. @throws Refusal if the set does not have it, FormatError if it is
 /// damaged

@@ -32,6 +32,8 @@ struct Everything {
   Owned<calligraphy_match> match;
   Owned<calligraphy_recording> recording;
   Owned<calligraphy_score> score;
+  Owned<calligraphy_renderer> guided;  ///< by a law that was told of a stroke
+  const calligraphy_active_stroke* stroke = nullptr;
   calligraphy_mapping mapping = sized<calligraphy_mapping>();
   calligraphy_tick tick = sized<calligraphy_tick>();
   calligraphy_device_state state = sized<calligraphy_device_state>();
@@ -53,6 +55,31 @@ struct Everything {
     REQUIRE(calligraphy_score_recording(recording.get(), CALLIGRAPHY_TOLERANCE_NORMAL, &score_handle) ==
             CALLIGRAPHY_OK);
     score.reset(score_handle);
+    guide();
+  }
+
+  /// A pen is put down at the start of a stroke.
+  void guide() {
+    auto law = sized<calligraphy_guidance_functions>();
+    law.user = &stroke;
+    law.begin = [](void* user, const calligraphy_active_stroke* told) {
+      *static_cast<const calligraphy_active_stroke**>(user) = told;
+    };
+    law.force = [](void*, const calligraphy_guidance_input*, calligraphy_guidance_terms*) { return 0; };
+    options.guidance_law = CALLIGRAPHY_GUIDANCE_OWN;
+    options.guidance_functions = &law;
+    guided = renderer_of(page.get(), capabilities, &options, &mapping);
+    options = options_for(capabilities);
+    auto first = sized<calligraphy_stroke>();
+    REQUIRE(calligraphy_page_stroke(page.get(), 0, 0, &first) == CALLIGRAPHY_OK);
+    auto sample = sized<calligraphy_device_state>();
+    for (int i = 0; i < 20; ++i) {
+      const double tip[3] = {first.start[0], first.start[1], 1e-3 - 1e-4 * i};
+      REQUIRE(calligraphy_mapping_to_device(&mapping, tip, sample.position) == CALLIGRAPHY_OK);
+      sample.time = 1e-3 * i;
+      REQUIRE(calligraphy_renderer_update(guided.get(), &sample, &tick) == CALLIGRAPHY_OK);
+    }
+    REQUIRE(stroke != nullptr);
   }
 };
 
@@ -64,7 +91,8 @@ std::vector<std::pair<std::string, void*>> handles_of(const Everything& all) {
           {"servo", all.servo.get()},
           {"match", all.match.get()},
           {"recording", all.recording.get()},
-          {"score", all.score.get()}};
+          {"score", all.score.get()},
+          {"stroke", const_cast<calligraphy_active_stroke*>(all.stroke)}};
 }
 
 /// A call with a handle of a kind; every function that takes one occurs.
@@ -100,6 +128,7 @@ std::vector<HandleCall> handle_calls(Everything& all) {
   static auto character_score = sized<calligraphy_character_score>();
   static auto stroke_score = sized<calligraphy_stroke_score>();
   static auto pen_down_score = sized<calligraphy_pen_down_score>();
+  static auto place = sized<calligraphy_stroke_place>();
   using Set = calligraphy_set;
   using Page = calligraphy_page;
   using Renderer = calligraphy_renderer;
@@ -165,6 +194,8 @@ std::vector<HandleCall> handle_calls(Everything& all) {
       {"score_stroke", "score", [](void* h) { return calligraphy_score_stroke(as<Score>(h), 0, 0, &stroke_score); }},
       {"score_pen_down", "score",
        [](void* h) { return calligraphy_score_pen_down(as<Score>(h), 0, 0, &pen_down_score); }},
+      {"active_stroke_at", "stroke",
+       [](void* h) { return calligraphy_active_stroke_at(as<calligraphy_active_stroke>(h), 0.0, &place); }},
       {"score_match", "score", [](void* h) { return calligraphy_score_match(as<Score>(h), 0, &match); }},
   };
 }
@@ -378,6 +409,13 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
   const auto polyline = [&](std::int32_t character, std::int32_t index, int shape, double tolerance) {
     return calligraphy_page_polyline(all.page.get(), character, index, shape, tolerance, points, 1, &count);
   };
+  const auto no_law = sized<calligraphy_guidance_functions>();
+  const auto create_with = [&](std::int32_t law, const calligraphy_guidance_functions* functions) {
+    auto options = all.options;
+    options.guidance_law = law;
+    options.guidance_functions = functions;
+    return calligraphy_renderer_create(all.page.get(), nullptr, &all.capabilities, &options, &renderer);
+  };
   check({
       {"built in", value, "set is null", [&] { return calligraphy_set_built_in(nullptr); }},
       {"open", value, "path is null", [&] { return calligraphy_set_open(nullptr, &set); }},
@@ -483,6 +521,17 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
        }},
       {"renderer", value, "stiffness_check = 3, must be 0 to 2",
        [&] { return calligraphy_renderer_create(all.page.get(), nullptr, &all.capabilities, &bad_choice, &renderer); }},
+      {"law", value, "guidance_law = 4, must be 0 to 3", [&] { return create_with(4, nullptr); }},
+      {"law", value, "calligraphy_guidance_functions is null",
+       [&] { return create_with(CALLIGRAPHY_GUIDANCE_OWN, nullptr); }},
+      {"law", value, "calligraphy_guidance_functions: force is null",
+       [&] { return create_with(CALLIGRAPHY_GUIDANCE_OWN, &no_law); }},
+      {"law", value, "guidance_functions are set, but guidance_law = 1 is not CALLIGRAPHY_GUIDANCE_OWN",
+       [&] { return create_with(CALLIGRAPHY_GUIDANCE_SATURATING, &no_law); }},
+      {"free", CALLIGRAPHY_INVALID_HANDLE, "a stroke is freed with its renderer",
+       [&] { return calligraphy_free(const_cast<calligraphy_active_stroke*>(all.stroke)); }},
+      {"place", value, "calligraphy_stroke_place is null",
+       [&] { return calligraphy_active_stroke_at(all.stroke, 0.0, nullptr); }},
       {"renderer", value, "renderer is null",
        [&] { return calligraphy_renderer_create(all.page.get(), nullptr, &all.capabilities, nullptr, nullptr); }},
       {"update", value, "calligraphy_device_state is null",

@@ -442,7 +442,11 @@ TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its 
   CHECK(sizeof(calligraphy_device_state) == 112);
   CHECK(sizeof(calligraphy_grip) == 32);
   CHECK(sizeof(calligraphy_pointer_options) == 56);
-  CHECK(sizeof(calligraphy_renderer_options) == 376);
+  CHECK(sizeof(calligraphy_guidance_input) == 256);
+  CHECK(sizeof(calligraphy_guidance_terms) == 48);
+  CHECK(sizeof(calligraphy_stroke_place) == 56);
+  CHECK(sizeof(calligraphy_guidance_functions) == 56);
+  CHECK(sizeof(calligraphy_renderer_options) == 384);
   CHECK(sizeof(calligraphy_tick) == 360);
   CHECK(sizeof(calligraphy_servo_state) == 192);
   CHECK(sizeof(calligraphy_drawn_stroke) == 48);

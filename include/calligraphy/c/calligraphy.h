@@ -38,8 +38,8 @@ extern "C" {
 //
 // Functions return a status. On failure they do nothing else, and calligraphy_last_error() says what was wrong with
 // which value. No function throws or ends the program, except that reading a set from a file ends it if someone has
-// shortened the file since it was opened; none is called back. Where an optional pointer is null, nothing is read from
-// it or written to it.
+// shortened the file since it was opened. Functions of the program are called only where it sets them as its guidance
+// law. Where an optional pointer is null, nothing is read from it or written to it.
 //
 // Where the library was loaded at run time, by dlopen(), the first step or error in a thread takes memory for that
 // thread, unless calligraphy_last_error() was called in it before.
@@ -331,8 +331,88 @@ typedef enum calligraphy_nearest_method {
 typedef enum calligraphy_guidance_law {
   CALLIGRAPHY_GUIDANCE_LINEAR = 0,      ///< a spring within the constraint space, nothing outside
   CALLIGRAPHY_GUIDANCE_SATURATING = 1,  ///< a spring that levels off towards guidance_limit, at any distance
-  CALLIGRAPHY_GUIDANCE_WANG2006 = 2     ///< the linear one as printed, which never lets go
+  CALLIGRAPHY_GUIDANCE_WANG2006 = 2,    ///< the linear one as printed, which never lets go
+  CALLIGRAPHY_GUIDANCE_OWN = 3          ///< calligraphy_guidance_functions of the program
 } calligraphy_guidance_law;
+
+/// What a guidance law is told in a tick: where the pen is, on the page, and what is asked of the law.
+typedef struct calligraphy_guidance_input {
+  uint32_t size;         ///< of what the library knows; it sets it
+  int32_t writing;       ///< whether the pen writes the stroke; otherwise it is on the way to its start
+  double tip[2];         ///< of the pen [m]
+  double velocity[2];    ///< of it, an estimate [m/s]
+  double target[2];      ///< where guidance leads: the nearest point, or one before the start or beyond the end [m]
+  double way[2];         ///< from the tip to the target [m]
+  double tangent[2];     ///< of the stroke at its nearest point, in writing direction; unit vector
+  double stiffness;      ///< guidance_stiffness times `attraction`, as far as the device stands it [N/m]
+  double damping;        ///< guidance_damping as it takes effect [N s/m]
+  double attraction;     ///< attraction factor there, eq. (8): 1 on most strokes
+  double weight;         ///< of the constraint space, 0 outside; 1 before the stroke is begun
+  double share;          ///< factor on the force: that of the assistance and, for a law that lets go, `weight` [1]
+  double resistance;     ///< where writing backwards is resisted: of the damping, along the stroke too [1]
+  double nearest[2];     ///< point of the stroke; before it is begun, its start [m]
+  double distance;       ///< from the tip to `nearest` [m]
+  double curvature;      ///< of the stroke there, positive to the left [1/m]
+  double feature[2];     ///< feature point that ends the element there [m]
+  double arc;            ///< length of the stroke up to `nearest` [m]
+  double left;           ///< length from there to its end [m]
+  double backwards;      ///< length by which the pen is behind the furthest point that it reached [m]
+  double to_start[2];    ///< from the tip to the start of the stroke [m]
+  double depth;          ///< of the device below the paper [m]
+  double em;             ///< edge of the character's square [m]
+  double dt;             ///< period of the servo loop [s]
+  double max_stiffness;  ///< stable in any hand on the device, beside the other springs and `damping` [N/m]
+} calligraphy_guidance_input;
+
+/// What a guidance law answers: forces on the pen, on the page. The library sets them before it asks, so that a law
+/// changes what it means to: no spring, the damper of the built-in laws for `share`, nothing along the normal.
+typedef struct calligraphy_guidance_terms {
+  uint32_t size;     ///< of what the library knows; it sets it
+  double spring[2];  ///< what depends on where the pen is [N]
+  double damper[2];  ///< what depends on how it moves, so that an exhausted budget of energy can keep it [N]
+  double normal;     ///< in addition to the paper's, out of the paper [N]
+} calligraphy_guidance_terms;
+
+/// The stroke that a guidance law was told of last. The renderer's: not to be freed, and refused once that is gone.
+typedef struct calligraphy_active_stroke calligraphy_active_stroke;
+
+/// A place on a stroke.
+typedef struct calligraphy_stroke_place {
+  uint32_t size;      ///< sizeof(calligraphy_stroke_place)
+  double point[2];    ///< [m, page]
+  double tangent[2];  ///< unit vector in writing direction; zero for a stroke that is a point
+  double curvature;   ///< positive where the stroke bends to the left [1/m]
+  double length;      ///< of the whole stroke [m]
+} calligraphy_stroke_place;
+
+/// The place at an arc length from the start, which is clamped to the stroke (NaN counts as 0) [m]. At a corner it is
+/// the end of the element before. Neither allocates, locks nor logs.
+CALLIGRAPHY_API calligraphy_status calligraphy_active_stroke_at(const calligraphy_active_stroke* stroke, double arc,
+                                                                calligraphy_stroke_place* place);
+
+/// Called before the first force of each attempt at a stroke.
+typedef void calligraphy_guidance_begin(void* user, const calligraphy_active_stroke* stroke);
+
+/// Called in each tick in which the pen is led, never in the air: should neither allocate, lock nor log. Returns 0, or
+/// another value if it failed: then, and if a force is not finite, there is none, and CALLIGRAPHY_TICK_BAD_LAW.
+typedef int32_t calligraphy_guidance_force(void* user, const calligraphy_guidance_input* input,
+                                           calligraphy_guidance_terms* terms);
+
+/// A guidance law of the program's own (docs/c.md). calligraphy_renderer_update() and calligraphy_servo_step() call it
+/// in their thread; it must not use their renderer or servo. Renderers with the same `user` share what it points to.
+/// What is zero takes the default. A law that is stiffer than the device stands is refused, or scaled down
+/// (stiffness_check). Where its stiffness is not known, the force follows the pen at the one that the device stands,
+/// and there is a budget of energy, without which a real device is refused.
+typedef struct calligraphy_guidance_functions {
+  uint32_t size;                      ///< sizeof(calligraphy_guidance_functions)
+  int32_t never_lets_go;              ///< not even of a pen far from the stroke, or that the hand pulls elsewhere
+  void* user;                         ///< given to the functions; it must live as long as the renderer
+  calligraphy_guidance_begin* begin;  ///< may be null
+  calligraphy_guidance_force* force;  ///< must not be null
+  const char* name;                   ///< for messages, in UTF-8; "own" by default
+  double stiffness;                   ///< by which its force changes at most as the pen moves; 0: not known [N/m]
+  double power;                       ///< at most 10, to lead a pen on with; added to the budget, which it needs [W]
+} calligraphy_guidance_functions;
 
 /// How exactly a stroke must be written to count as the one that is due.
 typedef enum calligraphy_tolerance {
@@ -401,6 +481,8 @@ typedef struct calligraphy_renderer_options {
 
   double energy_budget;   ///< maximum net energy given since the start; infinite: no limit [J]
   double energy_max_gap;  ///< longest time without a sample that it must hold over [s]
+
+  const calligraphy_guidance_functions* guidance_functions;  ///< the own law, copied; null otherwise, and in results
 } calligraphy_renderer_options;
 
 /// Which options to begin with.
@@ -461,7 +543,7 @@ typedef enum calligraphy_tick_status {
   CALLIGRAPHY_TICK_BAD_SAMPLE = 2,    ///< not finite, or too far away: the force ramps down to zero
   CALLIGRAPHY_TICK_DEVICE_FAULT = 3,  ///< reported by the device: the force ramps down to zero
   CALLIGRAPHY_TICK_BAD_CLOCK = 4,     ///< times not in seconds, or a loop not at its rate: the force ramps down to zero
-  CALLIGRAPHY_TICK_BAD_LAW = 5        ///< the guidance law failed, or its force is not finite: the force ramps down to zero
+  CALLIGRAPHY_TICK_BAD_LAW = 5        ///< the guidance law failed, or is not finite: the force ramps down to zero
 } calligraphy_tick_status;
 
 /// Why a pen on the paper is not guided.
