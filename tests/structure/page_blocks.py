@@ -2,7 +2,7 @@
 
 Every fence has one of the LANGUAGES. An HTML comment `<!-- given: ... -->` on the lines above a fence says what the
 block stands on, to the test alone; blocks of one page in Python are one program, so they need none. Those in C are one
-main() too, before which stands what is given.
+main() too, before which stands what is given, and what defines functions.
 """
 import dataclasses
 import re

@@ -17,12 +17,14 @@ from page_blocks import blocks
 
 
 def c_program(root, page_blocks):
-    """One main() of the blocks of a page; compilers report the page's lines."""
+    """One main() of the blocks of a page, before which stand those that define functions; compilers report the page's
+    lines."""
     includes, functions, body = [], [], []
     for block in page_blocks:
-        for part, lines in ((block.given, functions), (block.text, body)):
+        is_function = re.search(r"^static .*\{$", block.text, re.MULTILINE)
+        for part, lines in ((block.given, functions), (block.text, functions if is_function else body)):
             includes += re.findall(r"^#include .*", part, re.MULTILINE)
-            place = f'#line {block.line} "{root / block.page}"\n' if lines is body else ""
+            place = f'#line {block.line} "{root / block.page}"\n' if part is block.text else ""
             lines.append(place + re.sub(r"^#include .*", "", part, flags=re.MULTILINE))
     return "\n".join([*includes, *functions, "int main(void) {", *body, "}\n"])
 
