@@ -19,7 +19,7 @@ OTHERS = {"tools/": ["tools"], "bindings/": ["python"], "examples/": ["c", "coll
           "docs/own-backend.md": ["devices", "python", "tools"], "README.md": ["python", "tools"], "CHANGELOG.md": [],
           "web/": [], "tests/web/": [],
           "tests/tools/": ["tools"], "tests/consumer/": ["consumer"], "tests/structure/": ["tools"],
-          "tests/refused/": ["devices"], "tests/fuzz/": ["collision"], "tests/soak/": ["practice"],
+          "tests/refused/": ["devices", "render"], "tests/fuzz/": ["collision"], "tests/soak/": ["practice"],
           "tests/guidance/": ["guidance"], "tests/judge/": ["judge"], "tests/stability/": ["stability", "guidance"],
           "tests/devices/phantom/emulator/": ["phantom", "openhaptics", "tools", "python"],
           "tests/devices/openhaptics/": ["openhaptics", "tools", "python"],

@@ -149,7 +149,7 @@ class FunctionLaw final : public GuidanceLaw {
                 "Eigen expression refers to temporaries that are gone");
 
   /// From the function and what a renderer has to know of it.
-  FunctionLaw(Force force, GuidanceTraits traits) : force_(std::move(force)), traits_(std::move(traits)) {}
+  FunctionLaw(Force function, GuidanceTraits traits) : force_(std::move(function)), traits_(std::move(traits)) {}
   GuidanceTraits traits() const override { return traits_; }
   GuidanceTerms force(const GuidanceInput& input) override {
     if constexpr (std::is_same_v<Result, GuidanceTerms>) {

@@ -28,8 +28,9 @@ class HapticRenderer {
   HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping, const Capabilities& capabilities,
                  const RendererOptions& options = {});
 
-  HapticRenderer(HapticRenderer&&) noexcept;
   /// Of one that was moved from, update() gives no force; otherwise it may only be destroyed or assigned to.
+  HapticRenderer(HapticRenderer&&) noexcept;
+  /// Likewise.
   HapticRenderer& operator=(HapticRenderer&&) noexcept;
   ~HapticRenderer();
 
