@@ -34,7 +34,7 @@ struct Recording {
   double rate = 1000.0;                 ///< samples per second [Hz]
   std::vector<RecordedSample> samples;  ///< one per tick, in order
   std::uint32_t page = 0;               ///< page_id() of the page that was written; 0: unknown
-  std::string law;                      ///< of the force, with its parameters: "linear: 600 N/m"; empty: unknown
+  std::string law = {};                 ///< of the force, with its parameters: "linear: 600 N/m"; empty: unknown
 };
 
 /// Writes comma-separated values: the first line names columns and units, the second, a comment, gives the rate, the
