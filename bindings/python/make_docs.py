@@ -201,6 +201,7 @@ def generated(headers: dict[str, str]) -> str:
     aliases = {name: kind for text in headers.values() for name, kind in re.findall(r"using (\w+) = ([^;]+);", text)}
     files = {name: Header(text).items for name, text in headers.items()}
     kinds = {each.name for items in files.values() for each in items if each.kind in ("struct", "class", "enum")}
+    kinds -= {"ForceLaw", "GuidanceFactory"}  # functions and the like in Python
     texts: dict[tuple[str, str], str] = {}
     for item in (item for items in files.values() for item in items if item.kind != "member"):
         owner = "::".join(item.scope)

@@ -517,7 +517,8 @@ def _leaves(name: str, value: Any) -> dict[str, str]:
         items = value.tolist() if isinstance(value, np.ndarray) else value
         if isinstance(items, list) and any(hasattr(type(item), "__match_args__") for item in items):
             return {n: v for i, item in enumerate(items) for n, v in _leaves(f"{name}[{i}]", item).items()}
-        return {name: repr(items)}
+        path = getattr(items, "__qualname__", "<")  # of a function of a module, whose repr() has its address
+        return {name: repr(items) if "<" in path else f"{items.__module__}.{path}"}
     return {n: v for field in fields for n, v in _leaves(f"{name}.{field}", getattr(value, field)).items()}
 
 

@@ -134,6 +134,10 @@ void add_collision(py::module_& module) {
              "to the element's size. A query that is not finite has an infinite distance and is not certified. Raises "
              "InvalidValue naming the argument.");
 
+  add_struct<StrokePlace>(module);
+  py::class_<ActiveStroke>(module, "ActiveStroke", "The stroke that is due, as begin() of a guidance law is told.")
+      .def_property_readonly("length", &ActiveStroke::length)
+      .def("at", &ActiveStroke::at, "arc"_a);
   add_struct<Placement>(module).def(
       "to_page",
       [](const Placement& self, const ArrayLike& value) {

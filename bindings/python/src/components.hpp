@@ -20,6 +20,7 @@
 
 #include "callbacks.hpp"
 #include "fields.hpp"
+#include "laws.hpp"
 
 namespace calligraphy::python {
 

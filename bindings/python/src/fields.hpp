@@ -17,7 +17,7 @@
 #include <Eigen/Geometry>
 
 #include <calligraphy/collision/placed_character.hpp>
-#include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/devices/servo.hpp>
 #include <calligraphy/render/guidance_law.hpp>
 
 #include "arrays.hpp"
@@ -40,38 +40,6 @@ class pybind11::detail::type_caster<Enum, std::enable_if_t<std::is_enum_v<Enum>>
     throw calligraphy::ValueError("expected one of " + str(", ").attr("join")(members).template cast<std::string>() +
                                   ", got " + repr(given).cast<std::string>());
   }
-};
-
-/// A guidance law, by its name.
-template <>
-class pybind11::detail::type_caster<calligraphy::GuidanceFactory> {
- public:
-  PYBIND11_TYPE_CASTER(calligraphy::GuidanceFactory, const_name("str"));
-
-  /// @throws ValueError listing the names when given another one
-  bool load(handle given, bool) {
-    if (!isinstance<str>(given)) return false;
-    const auto wanted = given.cast<std::string>();
-    for (const auto& [name, make] : laws) {
-      if (wanted != name) continue;
-      value = make;
-      return true;
-    }
-    throw calligraphy::ValueError("expected one of linear, saturating, wang2006, got " +
-                                  repr(given).cast<std::string>());
-  }
-  static handle cast(const calligraphy::GuidanceFactory& law, return_value_policy, handle) {
-    for (const auto& [name, make] : laws) {
-      if (law.is(make)) return str(name).release();
-    }
-    return none().release();
-  }
-
- private:
-  static constexpr std::pair<const char*, calligraphy::GuidanceFactory::Make*> laws[] = {
-      {"linear", calligraphy::linear_guidance},
-      {"saturating", calligraphy::saturating_guidance},
-      {"wang2006", calligraphy::printed_guidance}};
 };
 
 namespace calligraphy::python {
@@ -124,6 +92,10 @@ std::string expectation(bool elements = false) {
     return "a list of " + expectation<typename Type::value_type>(true);
   } else if constexpr (std::is_same_v<Type, bool>) {
     return "True or False";
+  } else if constexpr (std::is_same_v<Type, GuidanceFactory>) {
+    return "linear, saturating, wang2006, a function, or a class or object with a method force";
+  } else if constexpr (std::is_same_v<Type, ForceLaw>) {
+    return "a function or None";
   } else if constexpr (std::is_same_v<Type, char32_t>) {
     return "a str of length 1";
   } else if constexpr (std::is_same_v<Type, std::string>) {

@@ -32,11 +32,17 @@ class Loop {
       if (*renderer == nullptr) throw py::type_error("law: expected a HapticRenderer or a callable, got None");
       renderer_ = *renderer;
       renderer_of_python_ = py::cast(renderer_);
-      force = **renderer;
+      if (PythonGuidance::given(renderer_->options().guidance.force)) {
+        python_law_ = PythonLaw::make(py::cpp_function(
+            [asked = *renderer](const DeviceState& state) { return array_of(updated(*asked, state).force); }));
+      } else {
+        force = **renderer;
+      }
     } else {
       python_law_ = PythonLaw::make(std::get<Law>(law));
-      force = PythonLaw::force_law(python_law_, device.clock() == nullptr);
     }
+    if (python_law_) force = PythonLaw::force_law(python_law_, device.clock() == nullptr);
+    if (renderer_ != nullptr) force.rate = renderer_->options().servo_rate;
     loop_ = std::make_unique<ServoLoop>(device, std::move(force), options);
   }
   ~Loop() {
@@ -131,7 +137,7 @@ class Loop {
 
   py::object device_, renderer_of_python_;  ///< kept alive
   const HapticRenderer* renderer_ = nullptr;
-  std::shared_ptr<PythonLaw> python_law_;  ///< null if the law is a renderer
+  std::shared_ptr<PythonLaw> python_law_;  ///< null if the law is a renderer, unless that asks a law in Python
   std::unique_ptr<ServoLoop> loop_;
   std::unique_ptr<AtWork> at_work_;
   std::vector<std::string> warnings_;
@@ -202,6 +208,7 @@ LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOption
     return write_with_device(on, *with, chosen);
   };
   LiveResult result = released(write)(page, &device, options);
+  if (!raised) raised = std::exchange(result.error, nullptr);
   if (!raised) return result;
   try {
     std::rethrow_exception(raised);
@@ -268,7 +275,7 @@ void add_live(py::module_& module) {
              "watch"_a = py::none(),
              "+ `watch` is called with a LiveView about 50 times per second. The warnings, and the device's advice "
              "whenever it changes, are issued by warnings.warn() too. Ends likewise on Ctrl-C or an "
-             "exception of `watch`, which has the LiveResult as its attribute `result`.");
+             "exception of `watch` or of a law of the options, which has the LiveResult as its attribute `result`.");
   // At exit no force may remain, nor threads that would call into a finalised interpreter.
   py::module_::import("atexit").attr("register")(py::cpp_function(&end_all));
 }

@@ -19,12 +19,12 @@ namespace calligraphy::python {
 namespace {
 
 /// A recording from a structured array with these columns.
-Recording recording_of(double rate, const ArrayLike& samples, std::uint32_t page) {
+Recording recording_of(double rate, const ArrayLike& samples, std::uint32_t page, std::string law) {
   const py::array rows = py::module_::import("numpy").attr("asarray")(samples, dtype_of_struct<RecordedSample>());
   if (rows.ndim() != 1) throw ValueError("samples: expected shape (n,), got " + shape_of(rows));
   if (!(std::isfinite(rate) && rate > 0.0))
     throw ValueError("rate: expected a finite number above 0, got " + std::to_string(rate));
-  Recording result{rate, std::vector<RecordedSample>(static_cast<std::size_t>(rows.size())), page};
+  Recording result{rate, std::vector<RecordedSample>(static_cast<std::size_t>(rows.size())), page, std::move(law)};
   for (std::size_t i = 0; i < result.samples.size(); ++i) {
     RecordedSample& sample = result.samples[i];
     std::memcpy(static_cast<void*>(&sample), rows.data(static_cast<py::ssize_t>(i)), sizeof sample);
@@ -120,9 +120,10 @@ void add_practice(py::module_& module) {
 
   module.attr("sample_dtype") = dtype_of_struct<RecordedSample>();
   py::class_<Recording>(module, "Recording")
-      .def(py::init(&recording_of), "rate"_a, "samples"_a, "page"_a = 0)
+      .def(py::init(&recording_of), "rate"_a, "samples"_a, "page"_a = 0, "law"_a = "")
       .def_readonly("rate", &Recording::rate)
       .def_readonly("page", &Recording::page)
+      .def_readonly("law", &Recording::law)
       .def_property_readonly("samples", &samples_of,
                              "A structured array (n,), a read-only view of the recording (sample_dtype).")
       .def("__len__", [](const Recording& self) { return self.samples.size(); });

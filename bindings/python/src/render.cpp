@@ -75,7 +75,7 @@ py::array trace(HapticRenderer& renderer, const ArrayLike& positions, const std:
       for (py::ssize_t i = first; i < std::min(first + block, count); ++i) {
         state.time = time ? time[i] : start + static_cast<double>(i + 1) * period;
         state.position = vector_at(data, i);
-        ticks[static_cast<std::size_t>(i)] = renderer.update(state);
+        ticks[static_cast<std::size_t>(i)] = updated(renderer, state);
       }
     }
   }
@@ -90,6 +90,15 @@ void add_render(py::module_& module) {
       .def_static("lenient", &StrokeTolerances::lenient)
       .def_static("normal", &StrokeTolerances::normal)
       .def_static("strict", &StrokeTolerances::strict);
+  add_types<GuidanceInput, GuidanceTerms, GuidanceTraits>(module);
+  module.def(
+      "guidance_damper",
+      [](const GuidanceInput& input, double share) { return array_of(guidance_damper(input, share)); }, "input"_a,
+      "share"_a);
+  add_struct<GuidanceOptions>(module).attr("force").attr("__doc__") =
+      "how it depends on where the pen is: linear, saturating, wang2006 or a law of your own (docs/python.md), a class "
+      "with a method force(GuidanceInput) or a function, which returns (2,) [N], the spring beside guidance_damper(), "
+      "or GuidanceTerms";
   add_struct<RendererOptions>(module)
       .def_static("wang2006", &RendererOptions::wang2006)
       .def_static("for_device", &RendererOptions::for_device, "capabilities"_a, "scale"_a = 1.0)
@@ -120,15 +129,21 @@ void add_render(py::module_& module) {
       .def(py::init<std::vector<PlacedCharacter>, const MotionMapping&, const Capabilities&, const RendererOptions&>(),
            "page"_a, "mapping"_a, "capabilities"_a, "options"_a = RendererOptions{})
       .def(
-          "update", [](HapticRenderer& self, const DeviceState& state) { return idle(self).update(state); }, "state"_a)
+          "update",
+          [](HapticRenderer& self, const DeviceState& state) {
+            const AtWork at_work({AtWork::User::call}, nullptr, &self);  // a law in Python lets other threads run
+            return updated(self, state);
+          },
+          "state"_a, "+ Raises what a guidance law in Python raised; the force ramps down to zero while it does.")
       .def("trace", &trace, "positions"_a, "times"_a = py::none(),
            "Processes positions (N, 3) in device axes [m], one per tick, at increasing times (N,) [s], by default at "
-           "the servo rate from the last tick on. Returns N ticks (tick_dtype). Releases the GIL. After Ctrl-C, call "
-           "restart().")
+           "the servo rate from the last tick on. Returns N ticks (tick_dtype). Releases the GIL. After Ctrl-C or an "
+           "exception of a guidance law, call restart().")
       .def("restart", [](HapticRenderer& self) { idle(self).restart(); })
       .def("skip_stroke", [](HapticRenderer& self) { return idle(self).skip_stroke(); })
       .def_property_readonly("last", [](const HapticRenderer& self) { return idle(self).last(); })
       .def_property_readonly("options", &HapticRenderer::options, py::return_value_policy::copy)
+      .def_property_readonly("law", &HapticRenderer::law, py::return_value_policy::copy)
       .def_property_readonly("clipped", &HapticRenderer::clipped)
       .def_property_readonly("mapping", &HapticRenderer::mapping, py::return_value_policy::copy)
       .def_property_readonly("page",

@@ -28,6 +28,8 @@ def records(kind):
 def values(kind, name):
     """Values of a field: anything that its type accepts, because structs do not validate."""
     default = getattr(kind(), name)
+    if (kind, name) == (cal.GuidanceOptions, "force"):
+        return st.sampled_from(["linear", "saturating", "wang2006"])
     if type(default) in RECORDS:
         return records(type(default))
     if hasattr(type(default), "__members__"):
@@ -61,7 +63,7 @@ def placed():
     )
 
 
-OPTIONAL = {"mapping": lambda: records(cal.MotionMapping)}
+OPTIONAL = {"mapping": lambda: records(cal.MotionMapping), "law": lambda: st.just(cal.device_profile)}  # any function
 LISTS = {
     (cal.PracticePage, "characters"): placed,
     (cal.CharacterScore, "pen_downs"): lambda: records(cal.PenDownScore),
@@ -324,7 +326,7 @@ def test_other_classes_have_a_one_line_repr(written):
         (characters["永"], "Character(永, 5 strokes)"),
         (cal.CharacterSet(characters), f"CharacterSet({len(characters.characters)} characters)"),
         (renderer, "HapticRenderer(page of 1 at 1000 Hz)"),
-        (recording, f"Recording(rate=1000.0, samples=array({len(recording)},), page={recording.page})"),
+        (recording, f"Recording(rate=1000.0, samples=array({len(recording)},), page={recording.page}, law='linear: 600 N/m')"),
         (cal.PenTrace("一", [[[0, 0, 0]]], set="mine"),
          "PenTrace(character='一', strokes=[[[0.0, 0.0, 0.0]]], set='mine', em=1000.0)"),
         (cal.CharacterList([], cal.Provenance(source="me")),

@@ -1,0 +1,225 @@
+// Laws of guidance and of force written in Python, as options.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include <pybind11/pybind11.h>
+
+#include <calligraphy/devices/servo.hpp>
+#include <calligraphy/render/guidance_law.hpp>
+#include <calligraphy/render/haptic_renderer.hpp>
+
+#include "callbacks.hpp"
+#include "fields.hpp"
+
+namespace calligraphy::python {
+
+/// An object of which C++ threads may hold the last reference: its deleter acquires the GIL.
+inline std::shared_ptr<const py::object> kept(const py::object& object) {
+  return {new py::object(object), [](const py::object* made) {
+            const py::gil_scoped_acquire gil;
+            delete made;
+          }};
+}
+
+/// Of a law, as recordings tell it.
+inline std::string name_of_law(const py::object& law) {
+  if (py::hasattr(law, "name")) return converted(Given<std::string>(law.attr("name")), "name");
+  const py::object named = py::hasattr(law, "__name__") ? law : py::type::of(law);
+  return py::str(named.attr("__name__"));
+}
+
+/// @throws error_already_set, which write_with_device() can give its result
+[[noreturn]] inline void refuse_answer(const char* expected, const py::object& answer) {
+  const py::object brief = py::module_::import("calligraphy._struct").attr("brief")(answer);
+  const py::object type = py::module_::import("calligraphy._calligraphy").attr("InvalidValue");
+  InStep::raise(type(told("force: expected {}, got {}", expected, brief)));
+}
+
+/// An object with a method force(), or a function. Acquires the GIL on every call.
+class PythonGuidance final : public GuidanceLaw {
+ public:
+  /// Of a class each renderer makes its own object; everything else is asked as it is. Requires the GIL.
+  static GuidanceFactory factory(const py::object& given) {
+    return [law = kept(given)](const GuidanceSetup& setup) {
+      const py::gil_scoped_acquire gil;
+      const bool makes = &setup != &no_renderer && PyType_Check(asked(*law).ptr()) != 0;
+      return std::unique_ptr<GuidanceLaw>(new PythonGuidance(makes ? (*law)() : *law));
+    };
+  }
+  /// What factory() was given; null if the law is in C++. Requires the GIL.
+  static py::object given(const GuidanceFactory& factory) {
+    const auto law = factory(no_renderer);
+    const auto* const own = dynamic_cast<const PythonGuidance*>(law.get());
+    return own != nullptr ? own->law_ : py::object();
+  }
+  /// Whether an object can be a law.
+  static bool accepts(const py::object& given) {
+    const py::object object = asked(given);
+    if (py::hasattr(object, "force")) return PyCallable_Check(object.attr("force").ptr()) != 0;
+    return PyType_Check(object.ptr()) == 0 && PyCallable_Check(object.ptr()) != 0;
+  }
+
+  ~PythonGuidance() override {
+    const py::gil_scoped_acquire gil;
+    law_ = force_ = begin_ = {};
+  }
+  PythonGuidance(const PythonGuidance&) = delete;
+  PythonGuidance& operator=(const PythonGuidance&) = delete;
+
+  /// @throws TypeError naming the attribute
+  GuidanceTraits traits() const override {
+    const py::gil_scoped_acquire gil;
+    GuidanceTraits traits;
+    traits.name = name_of_law(law_);
+    each_field<GuidanceTraits>([&]<class Member>(const Field<GuidanceTraits, Member>& field) {
+      if (!py::hasattr(law_, field.name)) return;
+      traits.*field.member = converted(Given<Member>(law_.attr(field.name)), field.name);
+    });
+    return traits;
+  }
+
+  void begin(const ActiveStroke& stroke) override {
+    if (!begin_) return;
+    const py::gil_scoped_acquire gil;
+    begin_(stroke);
+  }
+
+  /// @throws error_already_set what the law raised; InvalidValue if it returned no force
+  GuidanceTerms force(const GuidanceInput& input) override {
+    const py::gil_scoped_acquire gil;
+    const py::object answer = force_(input);
+    try {
+      const GuidanceTerms terms = py::isinstance<GuidanceTerms>(answer)
+                                      ? answer.cast<GuidanceTerms>()
+                                      : GuidanceTerms{point(answer, "force"), guidance_damper(input, input.share)};
+      if (terms.spring.allFinite() && terms.damper.allFinite() && std::isfinite(terms.normal)) return terms;
+    } catch (const ValueError&) {  // the message below says more
+    }
+    refuse_answer("(2,) finite numbers or GuidanceTerms", answer);
+  }
+
+ private:
+  static inline const GuidanceOptions no_options;
+  /// Asks a factory for what it was given: a std::function does not say what it holds.
+  static inline const GuidanceSetup no_renderer{no_options, 0.0, 0.0, 0.0};
+
+  explicit PythonGuidance(py::object law)
+      : law_(std::move(law)), force_(py::getattr(law_, "force", law_)), begin_(py::getattr(law_, "begin", py::none())) {
+    if (begin_.is_none()) begin_ = {};
+  }
+
+  /// What a functools.partial calls, for a class whose constructor takes arguments.
+  static py::object asked(const py::object& given) {
+    return py::isinstance(given, py::module_::import("functools").attr("partial")) ? given.attr("func") : given;
+  }
+
+  py::object law_, force_, begin_;
+};
+
+/// As HapticRenderer::update(). @throws what the guidance law raised, with its traceback, or why it gave no force
+inline const HapticTick& updated(HapticRenderer& renderer, const DeviceState& state) {
+  const HapticTick& tick = renderer.update(state);
+  if (tick.status != TickStatus::bad_law || !renderer.law_error()) return tick;
+  try {
+    std::rethrow_exception(renderer.law_error());
+  } catch (const py::error_already_set& error) {
+    const py::gil_scoped_acquire gil;
+    InStep::raise(InStep::with_traceback(error));  // anew, because pybind11 gives each back to Python only once
+  }
+}
+
+/// The law of a session, a function in Python. Unlike a PythonLaw it lets its exceptions through: they end the session.
+class SessionLaw {
+ public:
+  /// Requires the GIL.
+  explicit SessionLaw(const py::object& law) : law_(kept(law)) {}
+
+  Eigen::Vector3d operator()(const DeviceState& state) const {
+    const py::gil_scoped_acquire gil;
+    if (&state == &no_sample) {
+      asked = *law_;
+      return Eigen::Vector3d::Zero();
+    }
+    const py::object answer = (*law_)(state);
+    try {
+      const Eigen::Vector3d force = vector(answer, "force");
+      if (force.allFinite()) return force;
+    } catch (const ValueError&) {  // the message below says more
+    }
+    refuse_answer("(3,) finite numbers", answer);
+  }
+
+  /// The function. Requires the GIL.
+  static py::object given(const ForceLaw& law) {
+    law(no_sample);
+    return std::exchange(asked, {});
+  }
+
+ private:
+  static inline const DeviceState no_sample;
+  static inline py::object asked;
+
+  std::shared_ptr<const py::object> law_;
+};
+
+}  // namespace calligraphy::python
+
+/// The law of a session: a function, or None.
+template <>
+class pybind11::detail::type_caster<calligraphy::ForceLaw> {
+ public:
+  PYBIND11_TYPE_CASTER(calligraphy::ForceLaw,
+                       const_name("collections.abc.Callable[[") + make_caster<calligraphy::DeviceState>::name +
+                           const_name("], numpy.typing.ArrayLike] | None"));
+
+  bool load(handle given, bool) {
+    if (given.is_none()) return true;
+    if (PyCallable_Check(given.ptr()) == 0) return false;
+    const auto law = reinterpret_borrow<object>(given);
+    value = calligraphy::python::SessionLaw(law);
+    value.name = calligraphy::python::name_of_law(law);
+    return true;
+  }
+  static handle cast(const calligraphy::ForceLaw& law, return_value_policy, handle) {
+    return law ? calligraphy::python::SessionLaw::given(law).release() : none().release();
+  }
+};
+
+/// A guidance law by its name, or one in Python.
+template <>
+class pybind11::detail::type_caster<calligraphy::GuidanceFactory> {
+ public:
+  PYBIND11_TYPE_CASTER(calligraphy::GuidanceFactory, const_name("typing.Any"));
+
+  /// @throws ValueError listing the names when given another one
+  bool load(handle given, bool) {
+    if (!isinstance<str>(given)) {
+      const auto object = reinterpret_borrow<pybind11::object>(given);
+      if (!calligraphy::python::PythonGuidance::accepts(object)) return false;
+      value = calligraphy::python::PythonGuidance::factory(object);
+      return true;
+    }
+    const auto wanted = given.cast<std::string>();
+    for (const auto& [law, make] : laws) {
+      if (wanted != law) continue;
+      value = make;
+      return true;
+    }
+    throw calligraphy::ValueError("expected one of linear, saturating, wang2006, got " +
+                                  repr(given).cast<std::string>());
+  }
+  static handle cast(const calligraphy::GuidanceFactory& law, return_value_policy, handle) {
+    for (const auto& [called, make] : laws) {
+      if (law.is(make)) return str(called).release();
+    }
+    return calligraphy::python::PythonGuidance::given(law).release();
+  }
+
+ private:
+  static constexpr std::pair<const char*, calligraphy::GuidanceFactory::Make*> laws[] = {
+      {"linear", calligraphy::linear_guidance},
+      {"saturating", calligraphy::saturating_guidance},
+      {"wang2006", calligraphy::printed_guidance}};
+};
