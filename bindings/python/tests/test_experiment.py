@@ -32,6 +32,25 @@ def comparable(value):
     return None if value != value else value
 
 
+class Own:
+    """The linear law, in Python."""
+
+    def force(self, given):
+        return given.share * given.stiffness * given.way
+
+
+class Forgetful(Own):
+    """Is weaker with every stroke that it remembers."""
+
+    strokes = 0
+
+    def begin(self, stroke):
+        self.strokes += 1
+
+    def force(self, given):
+        return super().force(given) / self.strokes
+
+
 @pytest.fixture(scope="module")
 def expected():
     return columns(experiment.run(grid(), progress=False))
@@ -71,8 +90,8 @@ class Failing(concurrent.futures.Executor):
 
 
 def test_the_table_has_one_row_per_condition_in_grid_order(expected):
-    rows = list(zip(*(expected[name] for name in experiment.Condition._fields)))
-    assert rows == [tuple(c) for c in experiment.conditions(grid())]
+    rows = list(zip(*(expected[name] for name in experiment.Condition._fields[:-1])))
+    assert rows == [c[:-1] for c in experiment.conditions(grid())]
     assert len(rows) == len(grid()) == 2 * 2 * 2
     assert all(error > 0 for error in expected["rms_error"])
 
@@ -262,6 +281,27 @@ def test_a_grid_accepts_your_own_writer():
         ({"writers": {"mine": "novice"}}, "writers: expected a WriterSkill, got 'novice'"),
         ({"writers": {1: cal.WriterSkill.novice()}}, "writers: expected a str, got 1"),
         ({"device": 7}, "device: expected a Capabilities, got 7"),
+        ({"device": []}, "device: expected at least one"),
+        ({"device": ["omni", "omni"]}, "device: 'omni' occurs twice"),
+        ({"device": ["omni", "pen"]}, 'device profile "pen" does not exist; available: omni'),
+        ({"device": {"mine": "omni"}}, "device: expected a Capabilities, got 'omni'"),
+        ({"law": "linear"}, "law: expected a list, got 'linear'"),
+        ({"law": ["cubic"]}, "law: expected one of linear, saturating, wang2006, got 'cubic'"),
+        ({"law": [Own]}, "law: expected a str, got "),
+        ({"law": {"mine": 3}}, "law: expected linear, saturating, wang2006, a function, or a class .*, got 3"),
+        ({"vary": ["guidance.damping"]}, r"vary: expected a dict, got \['guidance.damping'\]"),
+        ({"vary": {"damping": [1.0]}}, "vary: damping: RendererOptions has no field 'damping'; it has servo_rate"),
+        ({"vary": {"energy.bugdet": [1.0]}}, "EnergyOptions has no field 'bugdet'; it has budget, max_gap$"),
+        ({"vary": {"energy.budget.joule": [1.0]}}, "float has no field 'joule'; it has none"),
+        ({"vary": {"energy.budget": ["1"]}}, "vary: energy.budget: expected a number, got '1'"),
+        ({"vary": {"energy.budget": [1, 1.0]}}, "vary: energy.budget: 1.0 occurs twice"),
+        ({"vary": {"energy.budget": [float("nan")]}}, "vary: energy.budget: expected a number, got nan"),
+        ({"vary": {"energy.budget": 1.0}}, "vary: energy.budget: expected a list, got 1.0"),
+        ({"vary": {"rules": ["old"]}}, "vary: rules: expected one of revised, wang2006, got 'old'"),
+        ({"vary": {"energy": [1.0]}}, "vary: energy: vary one of its fields: budget, max_gap"),
+        ({"vary": {"guidance": {"usual": cal.GuidanceOptions()}}}, "guidance: vary one of its fields: stiffness, "),
+        ({"vary": {"nearest.method": ["exact"]}}, "vary: nearest.method: is the axis 'method'"),
+        ({"vary": {"energy.budget": [1], "energy": {"no": cal.EnergyOptions()}}}, "energy: energy.budget is varied"),
         ({"options": "default"}, "options: expected a RendererOptions, got 'default'"),
         ({"character_timeout": -1.0}, "character_timeout: expected a positive number, got -1.0"),
     ],
@@ -334,7 +374,8 @@ def test_an_empty_grid_gives_an_empty_table_with_the_same_columns(with_pandas, m
 
 def test_the_repr_of_a_grid_gives_its_size():
     assert repr(grid(stiffness=[300.0, 600.0])) == (
-        "Grid(16 trials: 2 characters x 1 writers x 2 modes x 2 stiffness x 1 rate x 1 method x 1 tolerance x 2 seeds)"
+        "Grid(16 trials: 2 characters x 1 writers x 2 modes x 2 stiffness x 1 rate x 1 method x 1 tolerance x 2 seeds "
+        "x 1 devices x 1 laws)"
     )
 
 
@@ -408,7 +449,7 @@ def by_hand(condition, device, renderer):
     figures = {name: getattr(score, name) for name in score.fields if name not in others}
     motion = {name: getattr(score.motion, name) for name in score.motion.fields}
     return {
-        **condition._asdict(), **figures, **motion, "order_mistakes": score.order_mistakes(),
+        **dict(zip(condition._fields[:-1], condition)), **figures, **motion, "order_mistakes": score.order_mistakes(),
         "guidance_stiffness": clipped.guidance.stiffness, "paper_stiffness": clipped.paper.stiffness,
         "direction_mistakes": score.direction_mistakes(), "extra_pen_downs": score.match.count("extra"),
         "missing_strokes": score.match.count("missing"), "simulated_time": len(recording) / recording.rate,
@@ -451,8 +492,8 @@ def test_conditions_are_all_combinations_with_the_last_axis_fastest():
     )  # fmt: skip
     every = experiment.conditions(large)
     axes = ["人一", large.writers, large.modes, [2.0, 1.0], [30.0, 40.0, 50.0], large.method, [0.1, 0.2], [9, 4]]
-    assert [tuple(c) for c in every] == list(itertools.product(*axes)) and len(every) == len(large) == len(set(every))
-    assert every[0] == experiment.Condition("人", "skilled", "force", 2.0, 30.0, "exact", 0.1, 9)
+    assert [c[:8] for c in every] == list(itertools.product(*axes)) and len(every) == len(large) == len(set(every))
+    assert every[0] == experiment.Condition("人", "skilled", "force", 2.0, 30.0, "exact", 0.1, 9, "desktop", "linear")
     assert [c.seed for c in experiment.Grid("人", seeds=3, modes=["force"])] == [1, 2, 3]
 
 
@@ -746,3 +787,110 @@ def test_a_session_takes_a_mapping_and_refuses_a_wrong_one():
     live = cal.LiveOptions(mapping=cal.desk_page(page.width, page.height, -1.0))
     with pytest.raises(cal.InvalidValue, match="motion mapping: scale"):
         cal.write_with_device(page, cal.SimulatedDevice(device), live)
+
+
+def test_devices_laws_and_options_are_axes_that_vary_slowest():
+    slow = cal.device_profile("omni")
+    slow.update_rate = 500.0
+    large = grid(
+        device={"slow": slow, "desktop": cal.device_profile("desktop")}, law={"linear": "linear", "mine": Own},
+        vary={"guidance.to_start": [False, True], "paper.stiffness": np.array([300.0, 500.0])},
+    )  # fmt: skip
+    every = experiment.conditions(large)
+    assert len(every) == len(large) == len(set(every)) == 2 * 2 * 2 * 2 * 8
+    assert [(c.rate, c.device) for c in every[::64]] == [(500.0, "slow"), (1000.0, "desktop")]
+    assert [c.law for c in every[:64:32]] == ["linear", "mine"]
+    assert every[8].varied == (("guidance.to_start", False), ("paper.stiffness", 500.0))
+    assert pickle.loads(pickle.dumps(every)) == every
+    assert "x 2 devices x 2 laws x 2 guidance.to_start x 2 paper.stiffness)" in repr(large)
+    assert "each device" in large._repr_html_()
+
+
+def test_a_grid_of_several_devices_and_laws_has_the_rows_of_one_for_each():
+    devices = {"small": cal.device_profile("desktop"), "omni": cal.device_profile("omni")}
+    devices["small"].workspace, devices["small"].sample_delay = [0.05, 0.05, 0.05], 4
+    usual = {"stiffness": [600.0, 1e6], "modes": ["force"], "page": "desk"}
+    both = grid(device=devices, law=["linear", "saturating"], **usual)
+    rows = list(zip(*columns(experiment.run(both, progress=False)).values()))
+    for device, law in itertools.product(devices, ["linear", "saturating"]):
+        options = cal.RendererOptions.for_device(devices[device])
+        assert both.devices[device].options == options
+        options.guidance.force = law
+        alone = grid(device={device: devices[device]}, options=options, **usual)
+        assert rows[:8] == list(zip(*columns(experiment.run(alone, progress=False)).values()))
+        assert rows[0][8:10] == (device, law)
+        del rows[:8]
+    assert rows == []
+
+
+def test_an_option_is_set_as_by_hand_and_is_a_column():
+    """A number, a truth value, an enumerator and a struct by its name."""
+    vary = {
+        "guidance.damping": [2, 4.0], "guidance.to_start": [True], "rules": [cal.Rules.revised],
+        "tolerances": {"easy": cal.StrokeTolerances.lenient()}, "stiffness_check": ["reject"],
+    }  # fmt: skip
+    table = columns(experiment.run(grid(vary=vary), progress=False))
+    assert [*table][10:16] == [*vary, "guidance_stiffness"]
+    assert [table[path][-1] for path in vary] == [4.0, True, "revised", "easy", "reject"]
+    rows = list(zip(*(table[name] for name in experiment._COLUMNS)))
+    for damping in (2.0, 4.0):
+        options = cal.RendererOptions.for_device(cal.device_profile("desktop"))
+        options.guidance.damping, options.guidance.to_start = damping, True
+        options.tolerances = cal.StrokeTolerances.lenient()
+        assert rows[:8] == list(zip(*columns(experiment.run(grid(options=options), progress=False)).values()))
+        del rows[:8]
+
+
+def test_the_paper_may_be_as_stiff_as_asked_apart_from_guidance():
+    apart = experiment.Grid("一", modes=["force"], stiffness=[200.0, 400.0], vary={"paper.stiffness": [600.0]})
+    table = columns(experiment.run(apart, progress=False))
+    assert table["guidance_stiffness"] == [200.0, 400.0] and table["paper_stiffness"] == [600.0, 600.0]
+
+
+def test_a_value_that_set_up_refuses_ends_the_trials():
+    with pytest.raises(cal.InvalidValue, match="energy.max_gap = 1 s") as raised:
+        experiment.run(grid(seeds=1, vary={"energy.max_gap": [0.01, 1.0]}), progress=False)
+    assert columns(raised.value.table)["energy.max_gap"] == [0.01] * 4
+
+
+@pytest.mark.parametrize("with_pandas", [True, False])
+def test_an_empty_table_has_the_columns_of_its_options(with_pandas, monkeypatch):
+    if not with_pandas:
+        monkeypatch.setitem(sys.modules, "pandas", None)
+    vary = {"nearest.samples": [16], "guidance.to_start": [True], "rules": ["revised"], "energy.budget": [np.inf]}
+    empty, full = (experiment.run(grid(seeds=seeds, vary=vary), progress=False) for seeds in (0, 1))
+    assert dtypes(empty) == dtypes(full) and list(dtypes(empty)) == list(dtypes(full))
+
+
+def test_a_law_in_python_gives_the_same_table_in_every_executor():
+    mine = grid(modes=["force"], law={"linear": "linear", "mine": Own, "object": Forgetful()})
+    here = columns(experiment.run(mine, progress=False))
+    context = multiprocessing.get_context("spawn")
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
+        assert columns(experiment.run(mine, pool, chunk=3, progress=False)) == here
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        assert columns(experiment.run(mine, pool, chunk=1, progress=False)) == here
+    assert here["law"][::4] == ["linear", "mine", "object"] and mine.laws["object"].strokes == 0
+    assert experiment.Grid("一", options=law_of(Own)).laws == {"Own": Own}
+
+
+def law_of(law):
+    return cal.RendererOptions(guidance=cal.GuidanceOptions(force=law))
+
+
+def test_the_pairs_of_a_reduction_share_device_law_and_options():
+    """By hand: 0.5 for one of them and 0.1 for another, in one draw."""
+    for apart in ("device", "law", "guidance.damping", "tolerances", "rules"):
+        table = experiment.to_table(
+            rows(("一", 1, "vision", 2.0, 5), ("一", 1, "force", 1.0, 5), **{apart: "one"})
+            + rows(("一", 1, "vision", 4.0, 5), ("一", 1, "force", 3.6, 5), **{apart: "other"})
+        )
+        found = experiment.reduction(table)
+        assert (found.mean, found.pairs, found.draws) == (pytest.approx(0.3), 2, 1), apart
+
+
+def test_a_condition_made_by_hand_is_of_the_first_device_and_law():
+    mine = experiment.Grid("一", device=["omni", "desktop"], law=["saturating", "linear"])
+    row = experiment.trial(mine, experiment.Condition("一", "novice", "force", 600.0, 1000.0, "tracked", 1e-9, 1))
+    assert row == experiment.trial(mine, experiment.conditions(mine)[1]) and row["device"] == "omni"
+    assert mine.layout.width == 0.16 and mine.device == cal.device_profile("omni")

@@ -2,12 +2,15 @@
 
 import concurrent.futures
 import copy
+import functools
 import json
+import linecache
 import os
 import signal
 import subprocess
 import sys
 import time
+import types
 
 import pytest
 
@@ -136,8 +139,9 @@ def test_a_file_that_ends_anywhere_goes_on(trials, tmp_path):
 @pytest.mark.parametrize(
     "change, named",
     [
-        ({"device": "omni"}, "device[.]"),
-        ({"options": cal.RendererOptions.everything(cal.device_profile("desktop"))}, "options[.]"),
+        ({"device": "omni"}, "the grid has no Condition.*device='desktop'"),
+        ({"device": {"desktop": cal.device_profile("omni")}}, r"devices\['desktop'\][.]"),
+        ({"options": cal.RendererOptions.everything(cal.device_profile("desktop"))}, r"options\['desktop'\][.]"),
         ({"character_timeout": 60.0}, "character_timeout is 120.0 there and 60.0 here"),
         ({"page": "desk"}, "page is 'upright' there and 'desk' here"),
         ({"motion_scale": 2.0}, "motion_scale is 1.0 there and 2.0 here"),
@@ -145,6 +149,8 @@ def test_a_file_that_ends_anywhere_goes_on(trials, tmp_path):
         ({"source": cal.CharacterList([cal.with_quartic_curves(cal.built_in_characters()["一"])])}, r"characters\['一'\]"),
         ({"seeds": [2]}, "the grid has no Condition.*seed=1"),
         ({"characters": "人"}, "the grid has no Condition.*'一'"),
+        ({"law": ["saturating"]}, "the grid has no Condition.*law='linear'"),
+        ({"vary": {"energy.budget": [1.0]}}, r"vary is \[\] there and \['energy.budget'\] here"),
     ],
 )
 def test_the_file_of_another_experiment_is_refused_naming_what_differs(change, named, trials, tmp_path):
@@ -171,6 +177,64 @@ def test_a_grid_may_grow(expected, trials, tmp_path):
     trials.clear()
     same(experiment.run(grid(), path=path, progress=False), expected)
     assert trials == [each for each in experiment.conditions(grid()) if each not in experiment.conditions(small)]
+
+
+def law(given):
+    return given.way
+
+
+def test_devices_laws_and_options_may_grow(trials, tmp_path):
+    """What is varied no longer depends on the options of all."""
+    usual, other = cal.RendererOptions(), cal.RendererOptions()
+    other.guidance.damping, other.guidance.to_start, other.tolerances.slack = 3.0, True, 0.05
+    vary = {"guidance.damping": [4.0], "guidance.to_start": [False], "tolerances": {"usual": usual.tolerances}}
+    more = {"guidance.damping": [2.0, 4.0], "guidance.to_start": [True, False], "tolerances": {
+        "normal": cal.StrokeTolerances.normal(), "usual": usual.tolerances}}  # fmt: skip
+    path, usual.guidance.force = tmp_path / "rows.csv", law
+    small = grid(seeds=1, characters="一", options=usual, vary=vary)
+    laws = {"linear": "linear", "law": law}
+    large = grid(seeds=1, characters="一", options=other, vary=more, device=["omni", "desktop"], law=laws)
+    experiment.run(small, path=path, progress=False)
+    trials.clear()
+    table = experiment.run(large, path=path, progress=False)
+    assert len(trials) == len(large) - len(small) == 2 * 2 * 8 * 2 - 2 and not set(trials) & {*small}
+    same(table, experiment.run(large, progress=False))
+    trials.clear()
+    same(experiment.run(large, path=path, progress=False), table)
+    more["tolerances"]["usual"] = other.tolerances
+    with pytest.raises(cal.InvalidValue, match=r"vary\['tolerances'\]\['usual'\].slack is 0.04 there and 0.05 here"):
+        experiment.run(grid(seeds=0, options=other, vary=more), path=path, progress=False)
+    assert trials == []
+
+
+LAWS = """
+class Base:
+    def force(self, given):
+        return GAIN * given.way
+class Law(Base):
+    def __init__(self, scale=1.0):
+        self.scale = scale
+def law(given):
+    return GAIN * given.way
+"""
+
+
+@pytest.mark.parametrize("name", ["law", "Law", "Law()", "partial(Law, 1.0)", "partial(Law, scale=1.0)"])
+def test_a_law_whose_source_or_argument_has_changed_is_another_experiment(name, tmp_path):
+    def run(gain, name):  # linecache, which inspect reads, notices a file of another length
+        module, made = tmp_path / "laws.py", {"__name__": "laws", "partial": functools.partial}
+        module.write_text(LAWS.replace("GAIN", gain), encoding="utf-8")
+        linecache.checkcache(str(module))
+        exec(compile(module.read_text(encoding="utf-8"), str(module), "exec"), made)
+        monkeypatch.setitem(sys.modules, "laws", types.SimpleNamespace(__file__=str(module), **made))
+        experiment.run(grid(seeds=0, law={"mine": eval(name, made)}), path=tmp_path / "rows.csv", progress=False)
+
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        for _ in range(2):
+            run("1.0", name)
+        for gain, other in {("3.50", name), ("1.0", name.replace("1.0", "2.0"))} - {("1.0", name)}:
+            with pytest.raises(cal.InvalidValue, match=r"laws\['mine'\] is (law|Law) "):
+                run(gain, other)
 
 
 @pytest.mark.parametrize("text", ["mine", "a,b\n1,2\n", "# calligraphy.experiment.run: {\n", b"\xff\x00\n"])
@@ -270,15 +334,17 @@ def test_what_a_row_depends_on_is_all_of_the_grid(tmp_path):
     path = tmp_path / "rows.csv"
     experiment.run(grid(seeds=0), path=path, progress=False)
     basis = json.loads(path.read_text(encoding="utf-8").partition("\n")[0].partition(": ")[2])
-    for struct, name in ((grid().options, "options"), (grid().device, "device"), (cal.WriterSkill(), "writers['novice']")):
+    structs = {"options": grid().options, "devices": grid().device, "writers": cal.WriterSkill()}
+    for axis, struct in structs.items():
+        name = f"{axis}['{'novice' if axis == 'writers' else 'desktop'}']"
         for field in struct.fields:
             assert any(key == f"{name}.{field}" or key.startswith(f"{name}.{field}.") for key in basis), field
-    assert basis["options.nearest.method"] == repr(grid().options.nearest.method)
+    assert basis["options['desktop'].nearest.method"] == repr(grid().options.nearest.method)
     other = copy.deepcopy(grid().options)
     other.nearest.samples += 1
-    with pytest.raises(cal.InvalidValue, match="options.nearest.samples is "):
+    with pytest.raises(cal.InvalidValue, match=r"options\['desktop'\].nearest.samples is "):
         experiment.run(grid(seeds=0, options=other), path=path, progress=False)
-    path.write_text(path.read_text(encoding="utf-8").replace("options.nearest.samples", "gone"), encoding="utf-8")
+    path.write_text(path.read_text(encoding="utf-8").replace(".nearest.samples", ".gone"), encoding="utf-8")
     with pytest.raises(cal.InvalidValue, match="gone is .* there and None here"):
         experiment.run(grid(seeds=0), path=path, progress=False)
 
