@@ -20,6 +20,7 @@ import math
 import operator
 import os
 import pathlib
+import pickle
 import queue
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -659,7 +660,11 @@ def _leaves(name: str, value: Any) -> dict[str, str]:
 
 
 def _run_chunk(grid: Grid, part: Sequence[Condition]) -> list[Row]:
-    return [trial(grid, condition) for condition in part]
+    try:
+        return [trial(grid, condition) for condition in part]
+    except Exception as error:
+        setattr(error, "of_trial", not isinstance(error, MemoryError))  # tells it from that of an executor
+        raise
 
 
 def _run_on(
@@ -680,7 +685,8 @@ def _run_on(
         future.add_done_callback(ended.put)
 
     def failed(index: int, error: BaseException) -> None:
-        if isinstance(error, (cal.Error, TypeError, AttributeError)):
+        known = isinstance(error, (cal.Error, TypeError, AttributeError, pickle.PicklingError))
+        if known or getattr(error, "of_trial", False):
             raise error  # a retry would fail in the same way
         failures[index] += 1
         if failures[index] > retries:

@@ -51,6 +51,10 @@ class Forgetful(Own):
         return super().force(given) / self.strokes
 
 
+def broken(given):
+    raise LookupError("of my own")
+
+
 @pytest.fixture(scope="module")
 def expected():
     return columns(experiment.run(grid(), progress=False))
@@ -876,6 +880,24 @@ def test_a_law_in_python_gives_the_same_table_in_every_executor():
 
 def law_of(law):
     return cal.RendererOptions(guidance=cal.GuidanceOptions(force=law))
+
+
+def test_an_exception_of_a_law_ends_the_trials_with_its_traceback():
+    mine = grid(law={"linear": "linear", "broken": broken})
+    with pytest.raises(LookupError, match="of my own") as raised:
+        experiment.run(mine, progress=False)
+    assert raised.traceback[-1].name == "broken" and columns(raised.value.table)["law"] == ["linear"] * 8
+    with concurrent.futures.ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        with pytest.raises(LookupError, match="of my own") as raised:
+            experiment.run(mine, pool, progress=False)
+    assert "in broken" in str(raised.value.__cause__)
+
+
+def test_a_law_that_cannot_be_pickled_ends_the_trials():
+    mine = grid(law={"mine": eval("lambda given: given.way")})
+    with concurrent.futures.ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        with pytest.raises((pickle.PicklingError, AttributeError), match="lambda"):
+            experiment.run(mine, pool, progress=False)
 
 
 def test_the_pairs_of_a_reduction_share_device_law_and_options():
