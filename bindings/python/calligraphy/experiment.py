@@ -360,7 +360,8 @@ def run(
     progress bar is shown on a terminal.
     path: a .csv file that keeps every row as soon as its chunk has finished, in that order, below one line that says
     what the rows depend on. A run with the path of an earlier one, however that ended, takes the rows from there and
-    runs only what is missing; the axes of the grid may have grown, but `vary` has the same paths. `pandas.read_csv(path, skiprows=1)` reads it.
+    runs only what is missing; the axes of the grid may have grown, but `vary` must have the same paths.
+    `pandas.read_csv(path, skiprows=1)` reads it.
     Raises TrialsLost naming the first condition of a chunk that failed too often; InvalidValue naming what differs when
     the file is of another experiment, and FormatError or FileError. KeyboardInterrupt, TrialsLost and every other
     exception that ends the trials have the table of those that finished as their attribute `table`.
