@@ -16,6 +16,8 @@ EXAMPLES = {
     "speed_accuracy_tradeoff": ["speed-accuracy-tradeoff.png"],
     "stability_map": ["stability-map.png"],
     "own_force_law": ["own-force-law.png"],
+    "own_guidance_law": ["own-guidance-law.png"],
+    "four_laws": ["four-laws.png"],
     "replay_trace": ["replay-trace.png"],
     "live_writing": ["live-writing.png"],
     "ink": ["ink.png"],

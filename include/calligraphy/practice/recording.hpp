@@ -38,8 +38,8 @@ struct Recording {
 };
 
 /// Writes comma-separated values: the first line names columns and units, the second, a comment, gives the rate, the
-/// page and the law, with spaces for its control characters. Numbers are independent of the locale and in the shortest form that reads back exactly; events are the sum of
-/// TickEvent's bits.
+/// page and the law, with spaces for its control characters. Numbers are independent of the locale and in the shortest
+/// form that reads back exactly; events are the sum of TickEvent's bits.
 void write_recording(std::ostream& out, const Recording& recording);
 
 /// Reads exactly what write_recording wrote. `name` is used in messages.

@@ -20,7 +20,7 @@ struct GuidanceOptions;
 struct GuidanceInput {
   Point tip = Point::Zero();       ///< of the pen [m]
   Point velocity = Point::Zero();  ///< of it, an estimate [m/s]
-  /// Where guidance leads: the nearest point of the stroke; before the stroke is begun, a point on the way to its start;
+  /// Where guidance leads: the nearest point of the stroke; before that is begun, a point on the way to its start;
   /// beyond its end, the foot on the tangent there [m].
   Point target = Point::Zero();
   Point way = Point::Zero();      ///< from the tip to the target [m]
