@@ -1,12 +1,14 @@
 // Guidance laws of others: GuidanceLaw and the functions that stand for one.
 #include "../catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../scripted_pen.hpp"
@@ -230,6 +232,41 @@ TEST_CASE("a law that pulls a pen along gives the hand no more than the budget a
     CAPTURE(power, time);
     CHECK(most <= 0.1);
     CHECK(given > 0.06 + power * 1.5);
+  }
+}
+
+TEST_CASE("at a sample that jumps an own law steps and peaks no higher than the built-in one", "[render]") {
+  const auto channel = [](const GuidanceInput& in) -> Point {
+    return in.share * in.stiffness * std::max(0.0, 1.0 - 0.001 / std::max(0.001, in.way.norm())) * in.way;
+  };
+  const auto spring = [](const GuidanceInput& in) -> Point { return in.share * in.stiffness * in.way; };
+  const Capabilities device = device_profile("desktop");  // 7.9 N
+  struct Jump {
+    double step, peak;
+  };
+  const auto jump = [&](GuidanceFactory force, double max_acceleration) {
+    RendererOptions options = RendererOptions::for_device(device);
+    options.guidance.force = std::move(force);
+    options.limits.max_acceleration = max_acceleration;
+    HapticRenderer renderer({placed(U'一')}, {}, device, options);
+    ScriptedPen pen(renderer);
+    press_beside_start(pen, renderer);
+    const Eigen::Vector3d rest = renderer.last().device_point;
+    for (int tick = 0; tick < 400; ++tick) pen.at(rest);
+    pen.max_step = pen.max_force = 0.0;
+    for (int tick = 1; tick <= 400; ++tick) pen.at(rest + Eigen::Vector3d(0.0, 0.002 * std::min(tick, 3), 0.0));
+    return Jump{pen.max_step, pen.max_force};
+  };
+  for (const double max_acceleration : {100.0, std::numeric_limits<double>::infinity()}) {
+    const Jump built_in = jump(linear_guidance, max_acceleration);
+    const double stiffness = RendererOptions::for_device(device).guidance.stiffness;
+    for (const GuidanceFactory& own : {GuidanceFactory(channel, stated(stiffness)), GuidanceFactory(channel),
+                                       GuidanceFactory(spring, stated(stiffness)), GuidanceFactory(spring)}) {
+      const Jump felt = jump(own, max_acceleration);
+      CAPTURE(max_acceleration, built_in.step, built_in.peak, felt.step, felt.peak);
+      CHECK(felt.step <= built_in.step + 1e-9);
+      CHECK(felt.peak <= built_in.peak + 1e-9);
+    }
   }
 }
 
