@@ -643,8 +643,10 @@ def _told(law: Any) -> str:
     code = law if hasattr(law, "__qualname__") else type(law)
     source = []
     for part in getattr(code, "__mro__", (code,)):
-        with contextlib.suppress(OSError, TypeError):
+        try:
             source.append(inspect.getsource(part))
+        except (OSError, TypeError):
+            source.append(repr(part))  # of a function with its address: no other process takes it for this one
     return f"{code.__qualname__} {hashlib.sha256(''.join(source).encode('utf-8', 'surrogatepass')).hexdigest()}"
 
 
@@ -655,8 +657,7 @@ def _leaves(name: str, value: Any) -> dict[str, str]:
         items = value.tolist() if isinstance(value, np.ndarray) else value
         if isinstance(items, list) and any(hasattr(type(item), "__match_args__") for item in items):
             return {n: v for i, item in enumerate(items) for n, v in _leaves(f"{name}[{i}]", item).items()}
-        path = getattr(items, "__qualname__", "<")  # of a function of a module, whose repr() has its address
-        return {name: repr(items) if "<" in path else f"{items.__module__}.{path}"}
+        return {name: repr(items)}
     return {n: v for field in fields for n, v in _leaves(f"{name}.{field}", getattr(value, field)).items()}
 
 

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import calligraphy as cal
-from calligraphy import experiment
 
 DESKTOP = cal.device_profile("desktop")
 PAGE = cal.lay_out([cal.built_in_characters()["十"]])[0]
@@ -162,15 +161,6 @@ def test_options_with_a_law_are_compared_copied_and_pickled(law):
     back = pickle.loads(pickle.dumps(options)).guidance.force
     assert back == law or back.args == law.args
     assert repr(law) in repr(options)
-
-
-def test_a_run_with_a_law_is_resumed_in_another_process():
-    def basis(law):
-        options = cal.RendererOptions(guidance=cal.GuidanceOptions(force=law))
-        return experiment._basis(experiment.Grid("一", options=options))["options.guidance.force"]
-
-    assert basis(linear) == f"{__name__}.linear" and basis("linear") == "'linear'"
-    assert basis(lambda given: (0, 0)) != basis(lambda given: (1, 1))
 
 
 def test_sessions_and_other_threads_ask_a_law_in_python():

@@ -219,6 +219,14 @@ def law(given):
 """
 
 
+def test_a_function_without_source_is_known_by_itself_only(tmp_path):
+    one, other = (eval("lambda given: given.way") for _ in range(2))
+    for law in (one, one):
+        experiment.run(grid(seeds=0, law={"mine": law}), path=tmp_path / "rows.csv", progress=False)
+    with pytest.raises(cal.InvalidValue, match=r"laws\['mine'\] is <lambda> "):
+        experiment.run(grid(seeds=0, law={"mine": other}), path=tmp_path / "rows.csv", progress=False)
+
+
 @pytest.mark.parametrize("name", ["law", "Law", "Law()", "partial(Law, 1.0)", "partial(Law, scale=1.0)"])
 def test_a_law_whose_source_or_argument_has_changed_is_another_experiment(name, tmp_path):
     def run(gain, name):  # linecache, which inspect reads, notices a file of another length
