@@ -28,8 +28,8 @@ if __name__ == "__main__":
     for law in grid.laws:
         rows = np.asarray(table["law"]) == law
         errors[law] = np.asarray(table["rms_error"])[rows]
-    draws = np.arange(errors["spring"].size)  # a seed and a character
-    change = cal.mean_interval(errors["channel"] / errors["spring"] - 1.0, draws)
+    draws = range(errors["spring"].size)  # a seed and a character each
+    change = cal.mean_interval(errors["channel"] / errors["spring"] - 1.0, list(draws))
     told = f"{100 * change.mean:+.1f} ± {100 * change.half_width:.1f} % (95 % interval, {change.draws} pairs)"
     print("RMS error in the channel, beside that with the spring:", told)
 
