@@ -143,6 +143,11 @@ void tick_with(benchmark::State& state, void (*add)(RendererOptions&)) {
 void nothing(RendererOptions&) {}
 void friction(RendererOptions& options) { options.paper.friction.coefficient = 0.15; }
 void saturate(RendererOptions& options) { options.guidance.force = saturating_guidance; }
+/// The default law, as an author would write it.
+void own_law(RendererOptions& options) {
+  const auto spring = [](const GuidanceInput& in) -> Point { return in.stiffness * in.share * (in.target - in.tip); };
+  options.guidance.force = {spring, {.stiffness = options.guidance.stiffness}};
+}
 void guidance_to_start(RendererOptions& options) { options.guidance.to_start = true; }
 void assist_policy(RendererOptions& options) { options.guidance.assist.enabled = true; }
 void energy_budget(RendererOptions& options) { options.energy.budget = 0.1; }
@@ -152,6 +157,7 @@ void everything(RendererOptions& options) { options = RendererOptions::everythin
 BENCHMARK_CAPTURE(tick_with, nothing_added, nothing);
 BENCHMARK_CAPTURE(tick_with, friction, friction);
 BENCHMARK_CAPTURE(tick_with, saturating_guidance, saturate);
+BENCHMARK_CAPTURE(tick_with, own_law, own_law);
 BENCHMARK_CAPTURE(tick_with, guidance_to_start, guidance_to_start);
 BENCHMARK_CAPTURE(tick_with, assist_policy, assist_policy);
 BENCHMARK_CAPTURE(tick_with, energy_budget, energy_budget);

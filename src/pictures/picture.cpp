@@ -53,7 +53,7 @@ std::vector<std::vector<Trace>> traces_until(const PracticePage& page, const Rec
   std::vector<Point> touched;  // since the pen was put down, until it is known what it writes
   int character = -1;
   const auto extend = [](std::vector<Point>& line, const RecordedSample& sample) {
-    if (sample.status == TickStatus::ok && sample.pen_tip.allFinite()) line.push_back(sample.pen_tip.head<2>());
+    if (has_position(sample.status) && sample.pen_tip.allFinite()) line.push_back(sample.pen_tip.head<2>());
   };
   const auto keep = [&] {
     if (character >= 0 && character <= active && !trace.path.empty()) {

@@ -11,7 +11,7 @@ namespace calligraphy {
 
 /// Whether the pen's position is known.
 inline bool is_usable(const RecordedSample& sample) noexcept {
-  return sample.status == TickStatus::ok && sample.pen_tip.allFinite() && std::isfinite(sample.time);
+  return has_position(sample.status) && sample.pen_tip.allFinite() && std::isfinite(sample.time);
 }
 
 /// One pen-down on the page.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <calligraphy/base/error.hpp>
+
 #include "base/monotonic_clock.hpp"
 
 namespace calligraphy {
@@ -23,6 +25,7 @@ const HapticTick& SessionTick::update(const DeviceState& state) noexcept {
              tick.events, tick.status,       tick.character, tick.stroke,     0.0F};
   force_ = tick.force;
   if (law_) ask(state);
+  has_failed_ = has_failed_ || sample_.status == TickStatus::bad_law;
   if (mode_ == FeedbackMode::vision) force_ = sample_.force = Eigen::Vector3d::Zero();
   if (measure_) sample_.tick_ns = static_cast<float>(1e9 * (monotonic_seconds() - before));
   return tick;
@@ -32,7 +35,7 @@ const HapticTick& SessionTick::update(const DeviceState& state) noexcept {
 /// finite.
 void SessionTick::ask(DeviceState state) noexcept {
   force_ = sample_.force = Eigen::Vector3d::Zero();
-  if (sample_.status != TickStatus::ok || error_) return;
+  if (sample_.status != TickStatus::ok || has_failed_) return;
   if (!state.velocity.allFinite()) {
     state.velocity = velocity_.update(state.position, state.time - time_);
     state.velocity_estimated = true;
@@ -51,6 +54,14 @@ void SessionTick::ask(DeviceState state) noexcept {
   }
   if (size > peak_force_) force_ *= peak_force_ / size;
   sample_.force = renderer_.mapping().force_to_page(force_);
+}
+
+std::exception_ptr SessionTick::error() const {
+  if (!has_failed_) return nullptr;
+  if (error_) return error_;
+  if (renderer_.law_error()) return renderer_.law_error();
+  const std::string law = law_ ? "force law \"" + law_.name : "guidance law \"" + renderer_.law().name;
+  return std::make_exception_ptr(ValueError(law + "\": its force is not finite"));
 }
 
 Recording recording_for(const PracticePage& page, const HapticRenderer& renderer, FeedbackMode mode,

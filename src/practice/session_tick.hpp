@@ -22,10 +22,10 @@ class SessionTick {
 
   const Eigen::Vector3d& force() const noexcept { return force_; }
   const RecordedSample& sample() const noexcept { return sample_; }
-  /// What the force law or the guidance law threw first; null: nothing.
-  std::exception_ptr error() const noexcept { return error_ ? error_ : renderer_.law_error(); }
-  /// Whether it threw something. Without touching the exception.
-  bool has_failed() const noexcept { return error_ || renderer_.law_error(); }
+  /// Whether the force law or the guidance law has thrown, or its force was not finite: TickStatus::bad_law.
+  bool has_failed() const noexcept { return has_failed_; }
+  /// What it threw first, or a ValueError that names it; null unless it has failed.
+  std::exception_ptr error() const;
 
  private:
   void ask(DeviceState state) noexcept;
@@ -37,7 +37,8 @@ class SessionTick {
   VelocityEstimator velocity_;
   double time_;  ///< of the last estimate [s]
   bool measure_;
-  std::exception_ptr error_;
+  bool has_failed_ = false;
+  std::exception_ptr error_;  ///< what the force law threw
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
   RecordedSample sample_;
 };

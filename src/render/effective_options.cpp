@@ -28,6 +28,7 @@ void put_on_account(EffectiveOptions& effective, const Capabilities& capabilitie
   if (capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= EnergyObserver::max_delay) {
     energy.budget = presumed_budget;
     effective.clipped.push_back("energy.budget = " + number_text(presumed_budget) + " J: " + law);
+    effective.traits.name += ", within " + number_text(presumed_budget) + " J";
   } else if (!capabilities.simulated) {
     throw ValueError(law + ", so it needs a budget of energy, which the device " + device_label(capabilities) +
                      " does not permit: its apparent mass is " + number_text(capabilities.apparent_mass) +
@@ -60,6 +61,7 @@ std::unique_ptr<GuidanceLaw> guidance_law(EffectiveOptions& effective, const Cap
     effective.law_share = limit / traits.stiffness;
     message << ": the spring is scaled by " << effective.law_share;
     effective.clipped.push_back(message.str());
+    traits.name += ", scaled by " + number_text(std::round(1e4 * effective.law_share) / 1e4);
   }
   put_on_account(effective, capabilities);
   return law;

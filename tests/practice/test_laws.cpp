@@ -45,16 +45,16 @@ TEST_CASE("a law for the whole force is limited to the device's peak, keeping it
   CHECK(recording.samples.back().force.isApprox(expected));
 }
 
-TEST_CASE("a session ends with what its law throws, and one that is no number is no force", "[practice]") {
+TEST_CASE("a session ends with what its law throws, and where its force is not finite", "[practice]") {
   const PracticePage page = page_of("一");
   SessionOptions options = session(WriterSkill::skilled(), FeedbackMode::force);
   options.law = [](const DeviceState&) -> Eigen::Vector3d { throw std::runtime_error("no force"); };
   CHECK_THROWS_WITH(write_page(page, options), "no force");
   options.law = [](const DeviceState&) -> Eigen::Vector3d { return Eigen::Vector3d::Constant(NAN); };
-  const RecordedSample last = write_page(page, options).samples.back();
-  CHECK(last.status == TickStatus::bad_law);
-  CHECK(last.force.isZero(0.0));
+  CHECK_THROWS_WITH(write_page(page, options), "force law \"own\": its force is not finite");
   options.law = {};
+  options.renderer.guidance.force = {[](const GuidanceInput& in) -> Point { return in.way / 0.0; }, {.name = "thin"}};
+  CHECK_THROWS_WITH(write_page(page, options), "guidance law \"thin\": its force is not finite");
   options.renderer.guidance.force = failing;
   CHECK_THROWS_WITH(write_page(page, options), "out of ideas");
 }

@@ -83,7 +83,8 @@ print(json.dumps({
     assert faults or (told["written"] == 1 and told["peak"] > 0.05)
     assert told["status"] != "disconnected" and told["closed"] == "disconnected"
     assert all("priority" in warning for warning in told["warnings"])  # depends on the privileges on this machine
-    assert told["views"] > 0 and told["reports"] > 500 and 500 < told["samples"] <= told["ticks"]
+    assert told["views"] > 0 and told["reports"] > 500 and told["samples"] <= told["ticks"]
+    assert faults or told["samples"] > 500
 
 
 @pytest.mark.parametrize("priority", [-1, 100])

@@ -51,7 +51,7 @@ struct LiveResult {
   ServoStatistics statistics;         ///< of the servo loop, from its start
   std::uint64_t dropped = 0;          ///< ticks missing from the recording because the calling thread was too late
   std::vector<std::string> warnings;  ///< as of ServoLoop::start()
-  std::exception_ptr error;           ///< what a law of the options threw, which ended the session; null: nothing
+  std::exception_ptr error;           ///< what a law of the options threw, or that its force was not finite; ended it
 };
 
 /// The capabilities with their forces limited to a peak [N], which may be infinite.

@@ -52,7 +52,8 @@ using PenMotion = std::function<std::optional<Intention>(const HapticTick& tick,
 
 /// Runs the loop: device.read, renderer.update, device.write, `motion`, device.advance. The grip of the skill holds the
 /// device; it starts above the centre of the page.
-/// @throws ValueError when an option is out of its domain; whatever a law of the options throws, which ends the session
+/// @throws ValueError when an option is out of its domain; whatever a law of the options throws, or a ValueError where its
+/// force is not finite, which ends the session
 Recording run_session(const PracticePage& page, const SessionOptions& options, const PenMotion& motion);
 
 /// Writes the page once. Deterministic per seed, except for measured times.

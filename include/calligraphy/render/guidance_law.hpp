@@ -67,9 +67,10 @@ Point guidance_damper(const GuidanceInput& input, double share) noexcept;
 /// What a renderer has to know of a law.
 struct GuidanceTraits {
   std::string name = "own";  ///< with its parameters, for recordings: "saturating: 600 N/m, at most 2 N"
-  /// By how much its force changes at most with the place of the pen. A stiffer one than the device stands is refused,
-  /// or scaled down (StiffnessCheck). NaN: not known; then the force follows the pen at the stiffness that the device
-  /// stands, and there is a budget of energy, without which a real device is refused [N/m].
+  /// By how much its force changes at most with the place of the pen, if it is a function of that alone and damped by
+  /// guidance_damper(). A stiffer one than the device stands is refused, or scaled down (StiffnessCheck). NaN: not known,
+  /// or a law that remembers; then the force follows the pen at the stiffness that the device stands, and there is a
+  /// budget of energy, without which a real device is refused [N/m].
   double stiffness = std::numeric_limits<double>::quiet_NaN();
   double power = 0.0;       ///< at most 10, with which it may lead a pen on; added to the budget, which it needs [W]
   bool lets_go = true;      ///< of a pen that is far from the stroke, or that the hand pulls elsewhere

@@ -48,7 +48,7 @@ class HapticRenderer {
   /// due: the page is written, or the pen has not left the last stroke of the character yet.
   bool skip_stroke() noexcept;
 
-  /// What the guidance law says of itself.
+  /// What the guidance law says of itself; in its name also by what it is scaled down, and the budget that it was given.
   const GuidanceTraits& law() const noexcept;
   /// What the guidance law threw first since the restart; null: nothing. TickStatus::bad_law says when.
   const std::exception_ptr& law_error() const noexcept;

@@ -48,6 +48,11 @@ enum class TickStatus : std::uint8_t {
   bad_law  ///< the guidance law threw, or its force is not finite: the force ramps down, and sets in again with the law
 };
 
+/// Whether the sample says where the pen is: the law has nothing to do with that.
+constexpr bool has_position(TickStatus status) noexcept {
+  return status == TickStatus::ok || status == TickStatus::bad_law;
+}
+
 /// "ok", "stale", "bad_sample", "device_fault", "bad_clock", "bad_law".
 const char* to_string(TickStatus status) noexcept;
 
