@@ -74,7 +74,7 @@ struct GuidanceTraits {
   double stiffness = std::numeric_limits<double>::quiet_NaN();
   double power = 0.0;       ///< at most 10, with which it may lead a pen on; added to the budget, which it needs [W]
   bool lets_go = true;      ///< of a pen that is far from the stroke, or that the hand pulls elsewhere
-  bool sees_stroke = true;  ///< reads GuidanceInput from `nearest` on, which takes some 20 ns
+  bool sees_stroke = true;  ///< reads GuidanceInput from `nearest` on, which takes some 2 ns
 };
 
 /// Leads a pen along the strokes of one page, with what it remembers.
