@@ -29,11 +29,13 @@ void put_on_account(EffectiveOptions& effective, const Capabilities& capabilitie
     energy.budget = presumed_budget;
     effective.clipped.push_back("energy.budget = " + number_text(presumed_budget) + " J: " + law);
     effective.traits.name += ", within " + number_text(presumed_budget) + " J";
-  } else if (!capabilities.simulated) {
-    throw ValueError(law + ", so it needs a budget of energy, which the device " + device_label(capabilities) +
-                     " does not permit: its apparent mass is " + number_text(capabilities.apparent_mass) +
-                     " kg, its delay " + number_text(capabilities.sample_delay) + " ticks");
+    return;
   }
+  const std::string refusal = law + ", so it needs a budget of energy, which the device " + device_label(capabilities) +
+                              " does not permit: its apparent mass is " + number_text(capabilities.apparent_mass) +
+                              " kg, its delay " + number_text(capabilities.sample_delay) + " ticks";
+  if (!capabilities.simulated) throw ValueError(refusal);
+  effective.clipped.push_back(refusal);
 }
 
 }  // namespace
@@ -44,6 +46,8 @@ std::unique_ptr<GuidanceLaw> guidance_law(EffectiveOptions& effective, const Cap
   std::unique_ptr<GuidanceLaw> law = options.force({options, effective.guidance_stiffness(effective.max_attraction),
                                                     limit, 1.0 / effective.options.servo_rate});
   if (!law) throw ValueError("guidance.force: made no law");
+  effective.has_own_law = !options.force.is(linear_guidance) && !options.force.is(saturating_guidance) &&
+                          !options.force.is(printed_guidance);
   GuidanceTraits& traits = effective.traits = law->traits();
   const std::string name = "guidance law \"" + traits.name + "\": ";
   require_within(name + "power", traits.power, "W", 0.0, max_stated_power);

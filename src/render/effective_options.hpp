@@ -19,6 +19,7 @@ struct EffectiveOptions {
   double guidance_limit = 0.0;       ///< of the stiffness of guidance, attraction factor included [N/m, page]
   double max_attraction = 1.0;       ///< largest attraction factor on the page [1]
   GuidanceTraits traits;             ///< of the guidance law
+  bool has_own_law = false;          ///< and not a built-in one
   double law_share = 1.0;            ///< of its spring that the device stands [1]
   double law_stiffness = 0.0;        ///< by how much the force may follow the pen for it [N/m, page]
 

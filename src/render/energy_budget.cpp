@@ -86,7 +86,7 @@ Eigen::Vector3d EnergyBudget::limited(const Eigen::Vector3d& force, const Eigen:
 }
 
 void EnergyBudget::sent(const Eigen::Vector3d& force) noexcept {
-  if (brakes_) {
+  if (brakes_ || options_.charges_encoder) {
     spend(0.5 * options_.encoder_step * (force - observer_.sent_before(0)).cwiseAbs().sum());
   }
   observer_.sent(force);

@@ -15,7 +15,9 @@ struct EnergyBudgetOptions {
   double budget = std::numeric_limits<double>::infinity();
   double mass = std::numeric_limits<double>::infinity();  ///< of the device, the lightest pen [kg]
   double encoder_step = 0.0;                              ///< of a position along each axis [m]
-  EnergyObserverOptions observer = {};                    ///< which accounts for the energy
+  /// The force may follow what the encoder hides: the most that this gives unseen is charged, always.
+  bool charges_encoder = false;
+  EnergyObserverOptions observer = {};  ///< which accounts for the energy
 };
 
 /// Limits the force so that its net energy, as EnergyObserver accounts for it, stays within a budget. Never allocates.

@@ -15,8 +15,10 @@ constexpr double max_followed_speed = 1.0, max_followed_change = 0.3;
 
 /// In page axes, where forces are 1 / scale times those of the device, masses and damping 1 / scale^2 times
 /// (MotionMapping).
-EnergyBudget energy_budget(const RendererOptions& options, const Capabilities& capabilities, double scale) {
+EnergyBudget energy_budget(const RendererOptions& options, const Capabilities& capabilities, double scale,
+                           bool has_own_law) {
   EnergyBudgetOptions energy;
+  energy.charges_encoder = has_own_law;
   energy.budget = options.energy.budget;
   if (capabilities.apparent_mass > 0.0) energy.mass = capabilities.apparent_mass / (scale * scale);
   energy.encoder_step = capabilities.encoder_step * scale;
@@ -30,7 +32,7 @@ EnergyBudget energy_budget(const RendererOptions& options, const Capabilities& c
 }  // namespace
 
 ForceOutput::ForceOutput(const RendererOptions& options, const Capabilities& capabilities, const MotionMapping& mapping,
-                         double max_guidance_stiffness)
+                         double max_guidance_stiffness, bool has_own_law)
     : mapping_(mapping),
       period_(1.0 / options.servo_rate),
       in_plane_{max_guidance_stiffness + options.guidance.wrong_way_stiffness, options.guidance.damping},
@@ -46,7 +48,7 @@ ForceOutput::ForceOutput(const RendererOptions& options, const Capabilities& cap
   limiter_.in_plane_step = options.limits.in_plane_rate / options.servo_rate / mapping.scale;
   limiter_.normal_step = options.limits.normal_rate / options.servo_rate / mapping.scale;
   limiter_.peak = capabilities.peak_force / mapping.scale;
-  if (observes_energy_) energy_ = energy_budget(options, capabilities, mapping.scale);
+  if (observes_energy_) energy_ = energy_budget(options, capabilities, mapping.scale, has_own_law);
   if (options.limits.thermal_time_constant > 0.0) {
     thermal_.peak = limiter_.peak;
     thermal_.continuous = std::min(capabilities.continuous_force, capabilities.peak_force) / mapping.scale;
@@ -78,7 +80,8 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
   }
   if (observes_energy_) {
     account(pen);
-    if (guidance.power > 0.0) energy_.earn(guidance.power * period_);
+    if (guidance.power > 0.0) energy_.earn(guidance.power * std::clamp(pen.time - time_, 0.0, period_));
+    time_ = pen.time;
     force = affordable(pen, shortened(force, std::min(limiter_.peak, max_force)));
     max_force = std::min(max_force, energy_.max_force());
   }

@@ -30,10 +30,11 @@ struct SentForce {
 /// The energy is that of the force at work. Never allocates.
 class ForceOutput {
  public:
-  /// `max_guidance_stiffness`: by how much it follows the pen at most [N/m].
+  /// `max_guidance_stiffness`: by how much it follows the pen at most [N/m]. `has_own_law`: guidance is
+  /// that of an author, of which nothing is certain.
   /// @throws ValueError unless the device has a peak force
   ForceOutput(const RendererOptions& options, const Capabilities& capabilities, const MotionMapping& mapping,
-              double max_guidance_stiffness);
+              double max_guidance_stiffness, bool has_own_law);
 
   /// Sends what may be sent of the forces. While samples are stale for a moment, that is what was sent before; for a
   /// device that cannot be trusted, nothing: the force goes to zero by the rate.
@@ -65,6 +66,7 @@ class ForceOutput {
   ForceLimiter limiter_;
   bool observes_energy_;
   EnergyBudget energy_;
+  double time_ = 0.0;      ///< of the sample before [s]
   ThermalBudget thermal_;  ///< peak 0: disabled
   SentForce sent_;
 };

@@ -30,7 +30,7 @@ Guidance::Guidance(const EffectiveOptions& effective, std::unique_ptr<GuidanceLa
 /// No force, and none to withdraw.
 void Guidance::release() noexcept {
   force_.attraction = force_.wrong_way = force_.viscous = force_.total = Point::Zero();
-  force_.normal = force_.power = 0.0;
+  force_.normal = force_.power = released_normal_ = 0.0;
   released_.clear();
 }
 
@@ -47,9 +47,11 @@ const GuidanceForce& Guidance::update(PenState& pen, const WriterState& writer, 
     if (!pen.holds_force) release();
     return force_;
   }
-  if (writer.phase == WritingPhase::lifted && !released_.acts() && writer.events == TickEvent::none) {
+  if (writer.phase == WritingPhase::lifted && !released_.acts() && released_normal_ == 0.0 &&
+      writer.events == TickEvent::none) {
     return force_;  // nothing guides a pen in the air, and nothing is left to withdraw
   }
+  normal_before_ = force_.normal;
   assistance_.update(pen.tip.head<2>(), writer);
   force_.assistance = assistance_.factor();
   pull(pen, writer);
@@ -180,12 +182,20 @@ Point Guidance::faded(const PenState& pen, const WriterState& writer, const Poin
     const double seconds = lets_go ? options.fade_out : options.fade_in;
     released_.take_over(sent, tip, velocity, effective_.guidance_stiffness(1.0), options.damping, seconds / period_);
     fade_ = 0.0;
+    released_normal_ = normal_before_;
+    normal_left_ = 1.0;
+    normal_step_ = seconds > period_ ? period_ / seconds : 1.0;
   }
   Point force = force_.attraction + force_.wrong_way + force_.viscous;
   if (fade_ < 1.0) {
     fade_ = std::min(1.0, fade_ + fade_step_);
     force *= smooth_step(fade_);
     force_.normal *= smooth_step(fade_);
+  }
+  if (released_normal_ != 0.0) {
+    normal_left_ = std::max(0.0, normal_left_ - normal_step_);
+    force_.normal += smooth_step(normal_left_) * released_normal_;
+    if (normal_left_ == 0.0) released_normal_ = 0.0;
   }
   return released_.acts() ? Point(force + released_.next(tip, velocity)) : force;
 }

@@ -59,6 +59,10 @@ class Guidance {
   bool guided_ = false;      ///< in the tick before
   ReleasedSpring released_;  ///< what guided before it last jumped, took hold or let go
   double fade_ = 0.0;        ///< progress of the fade-in since then, 0 to 1
+  double normal_before_ = 0.0;    ///< of the law, in the tick before [N]
+  double released_normal_ = 0.0;  ///< likewise, of the law's normal force [N]
+  double normal_left_ = 0.0;      ///< of it, before its smooth step: 1 to 0
+  double normal_step_ = 0.0;      ///< per tick
   GuidanceForce force_;
 };
 

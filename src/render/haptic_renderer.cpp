@@ -26,7 +26,8 @@ struct HapticRenderer::Stages {
         sensor(effective.options, mapping, capabilities),
         sequencer(std::move(page), effective.options, capabilities, mapping, effective.traits.lets_go),
         paper(effective.options),
-        output(effective.options, capabilities, mapping, effective.law_stiffness) {}
+        output(effective.options, capabilities, mapping, effective.law_stiffness,
+               effective.has_own_law) {}
 
   void report(const PenState& pen, const WriterState& writer, const GuidanceForce& led, const PaperForce& pressed,
               const SentForce& sent) noexcept;

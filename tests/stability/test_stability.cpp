@@ -153,6 +153,35 @@ TEST_CASE("a law of which nothing is known gives no more than the presumed budge
   }
 }
 
+TEST_CASE("a law gives no more than its budget by forces that change while the encoder stands", "[stability]") {
+  using namespace calligraphy;
+  // A normal force that changes its sign every 8 ms, and a hand that moves by half a step of the encoder in time with it.
+  int tick = 0;
+  RendererOptions options;
+  options.guidance.force = [&tick](const GuidanceInput&) -> GuidanceTerms {
+    return {{0.0, 0.0}, {0.0, 0.0}, tick / 8 % 2 == 0 ? 2.0 : -2.0};
+  };
+  const Capabilities omni = device_profile("omni");
+  const PlacedCharacter placed = in_the_middle(*built_in_characters().find(U'一'), 1.0);
+  HapticRenderer renderer({placed}, upright_page(page_width, page_height), omni, options);
+  const Point start = placed.placement.to_page(strokes(placed.character)[0].control_points.front());
+  const double middle = -0.002, hidden = 0.45 * omni.encoder_step;
+  double given = 0.0, most = 0.0, place = middle;
+  for (tick = 0; tick < 180'000; ++tick) {
+    DeviceState state;
+    state.time = 0.001 * tick;
+    const double shown = omni.encoder_step * std::round(middle / omni.encoder_step);
+    state.position = renderer.mapping().to_device({start.x() + 0.002, start.y(), tick < 50 ? 0.005 : shown});
+    const double force = renderer.update(state).page_force.z();
+    const double next = middle + (force > 0.0 ? hidden : -hidden);
+    if (tick > 60) given += force * (next - place);
+    place = next;
+    most = std::max(most, given);
+  }
+  CAPTURE(given, most);
+  CHECK(most <= 0.1);
+}
+
 TEST_CASE("no hand gets more energy than the budget, whatever it tries and however the ticks come", "[stability]") {
   const auto profiles = calligraphy::device_profiles();
   for (int i = 0; i < energy_runs; ++i) {

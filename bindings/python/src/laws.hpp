@@ -23,9 +23,20 @@ inline std::shared_ptr<const py::object> kept(const py::object& object) {
           }};
 }
 
+/// Whether there is such an attribute. What else than AttributeError it raises is raised, which py::hasattr() hides.
+inline bool has_attribute(const py::object& object, const char* name) {
+  try {
+    object.attr(name).operator py::object();
+    return true;
+  } catch (const py::error_already_set& raised) {
+    if (!raised.matches(PyExc_AttributeError)) throw;
+    return false;
+  }
+}
+
 /// Of a law, as recordings tell it.
 inline std::string name_of_law(const py::object& law) {
-  if (py::hasattr(law, "name")) return converted(Given<std::string>(law.attr("name")), "name");
+  if (has_attribute(law, "name")) return converted(Given<std::string>(law.attr("name")), "name");
   const py::object named = py::hasattr(law, "__name__") ? law : py::type::of(law);
   return py::str(named.attr("__name__"));
 }
@@ -74,7 +85,7 @@ class PythonGuidance final : public GuidanceLaw {
     GuidanceTraits traits;
     traits.name = name_of_law(law_);
     each_field<GuidanceTraits>([&]<class Member>(const Field<GuidanceTraits, Member>& field) {
-      if (!py::hasattr(law_, field.name)) return;
+      if (!has_attribute(law_, field.name)) return;
       traits.*field.member = converted(Given<Member>(law_.attr(field.name)), field.name);
     });
     return traits;
