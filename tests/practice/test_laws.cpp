@@ -54,7 +54,7 @@ TEST_CASE("a session ends with what its law throws, and where its force is not f
   CHECK_THROWS_WITH(write_page(page, options), "force law \"own\": its force is not finite");
   options.law = {};
   options.renderer.guidance.force = {[](const GuidanceInput& in) -> Point { return in.way / 0.0; }, {.name = "thin"}};
-  CHECK_THROWS_WITH(write_page(page, options), "guidance law \"thin\": its force is not finite");
+  CHECK_THROWS_WITH(write_page(page, options), "guidance law \"thin, within 0.1 J\": its force is not finite");
   options.renderer.guidance.force = failing;
   CHECK_THROWS_WITH(write_page(page, options), "out of ideas");
 }

@@ -96,8 +96,9 @@ SweepCase draw_case(std::uint64_t seed, int index);
 /// Guidance laws of which nothing is known, and how they behave: "stiff", 5,000 N/m towards the stroke; "along", 2 N
 /// along it; "away", 600 N/m away from it; "undamped", 600 N/m towards it without a damper; "spring", a good one of 600
 /// N/m. With ", stated" they state 600 N/m, whether that is true or not. Others: as drawn.
-inline constexpr std::array strange_laws = {"spring", "spring, stated", "undamped", "undamped, stated", "stiff", "stiff, stated",
-                                            "along", "along, stated", "away", "away, stated"};
+inline constexpr std::array strange_laws = {"spring",       "spring, stated", "undamped",      "undamped, stated",
+                                            "stiff",        "stiff, stated",  "along",         "along, stated",
+                                            "away",         "away, stated"};
 /// @throws ValueError unless it is one of these
 calligraphy::GuidanceFactory strange_law(const std::string& name);
 

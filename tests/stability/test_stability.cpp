@@ -141,7 +141,8 @@ TEST_CASE("every named case of guidance that once drove the pen comes to rest", 
   }
 }
 
-TEST_CASE("a law of which nothing is known gives no more than the presumed budget, however it misbehaves", "[stability]") {
+TEST_CASE("a law of which nothing is known gives no more than the presumed budget, however it misbehaves",
+          "[stability]") {
   for (const char* const name : {"stiff", "along", "away"}) {
     const auto results = run_sweep(14, drawn_cases / 3, 0, nullptr,
                                    [&](SweepCase& drawn) { drawn.options.guidance.force = strange_law(name); });
@@ -155,7 +156,7 @@ TEST_CASE("a law of which nothing is known gives no more than the presumed budge
 
 TEST_CASE("a law gives no more than its budget by forces that change while the encoder stands", "[stability]") {
   using namespace calligraphy;
-  // A normal force that changes its sign every 8 ms, and a hand that moves by half a step of the encoder in time with it.
+  // A normal force that changes its sign every 8 ms, and a hand that moves within a step of the encoder in time with it.
   int tick = 0;
   RendererOptions options;
   options.guidance.force = [&tick](const GuidanceInput&) -> GuidanceTerms {
