@@ -271,6 +271,26 @@ TEST_CASE("at a sample that jumps an own law steps and peaks no higher than the 
   }
 }
 
+TEST_CASE("the normal force of a law sets in and is withdrawn in time, and goes on through feature points",
+          "[render]") {
+  RendererOptions options;
+  options.paper.stiffness = options.paper.damping = 0.0;
+  const auto up = [](const GuidanceInput&) -> GuidanceTerms { return {{0.0, 0.0}, {0.0, 0.0}, 1.0}; };
+  HapticRenderer renderer = renderer_of(U'永', up, options);
+  ScriptedPen pen(renderer);
+  double before = 0.0, largest = 0.0, least = 1.0;
+  pen.on_tick = [&](const HapticTick& tick) {
+    largest = std::max(largest, std::abs(tick.normal - before));
+    before = tick.normal;
+    if (has_event(tick.events, TickEvent::feature_passed)) least = std::min(least, tick.normal);
+  };
+  pen.speed = 0.03;
+  pen.write(renderer.page()[0]);
+  CHECK(renderer.last().character == 1);
+  CHECK(largest <= 1.5 / 150 + 1e-3);  // the steepest slope of a smooth step in 150 ms
+  CHECK(least > 0.9);
+}
+
 TEST_CASE("a tick with an own law does not allocate", "[render]") {
   HapticRenderer renderer = renderer_of(U'永', [](const GuidanceInput& in) -> Point { return 300.0 * in.way; });
   ScriptedPen pen(renderer);
