@@ -5,6 +5,7 @@
 #include <calligraphy/base/error.hpp>
 
 #include "base/monotonic_clock.hpp"
+#include "collision/length.hpp"
 
 namespace calligraphy {
 
@@ -46,13 +47,12 @@ void SessionTick::ask(DeviceState state) noexcept {
   } catch (...) {
     error_ = std::current_exception();
   }
-  const double size = force_.norm();
-  if (error_ || !std::isfinite(size)) {
+  if (error_ || !std::isfinite(force_.norm())) {
     sample_.status = TickStatus::bad_law;
     force_ = Eigen::Vector3d::Zero();
     return;
   }
-  if (size > peak_force_) force_ *= peak_force_ / size;
+  force_ = shortened(force_, peak_force_);
   sample_.force = renderer_.mapping().force_to_page(force_);
 }
 

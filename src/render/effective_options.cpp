@@ -3,17 +3,14 @@
 #include <cmath>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/render/detail/energy_observer.hpp>
 
 #include "base/require.hpp"
+#include "energy_budget.hpp"
 #include "exact_pen.hpp"
 #include "prepared_page.hpp"
 
 namespace calligraphy {
 namespace {
-
-/// Of a law that must have one and whose options give none, as in RendererOptions::everything() [J].
-constexpr double presumed_budget = 0.1;
 
 constexpr double max_stated_stiffness = 1e8;  ///< as good as no limit [N/m]
 constexpr double max_stated_power = 10.0;     ///< [W]
@@ -25,10 +22,10 @@ void put_on_account(EffectiveOptions& effective, const Capabilities& capabilitie
   if (energy.limited() || !(std::isnan(traits.stiffness) || traits.power > 0.0)) return;
   const std::string law = "the guidance law \"" + traits.name + "\" states " +
                           (traits.power > 0.0 ? "a power" : "no stiffness");
-  if (capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= EnergyObserver::max_delay) {
-    energy.budget = presumed_budget;
-    effective.clipped.push_back("energy.budget = " + number_text(presumed_budget) + " J: " + law);
-    effective.traits.name += ", within " + number_text(presumed_budget) + " J";
+  if (permits_account(capabilities)) {
+    energy.budget = usual_energy_budget;
+    effective.clipped.push_back("energy.budget = " + number_text(energy.budget) + " J: " + law);
+    effective.traits.name += ", within " + number_text(energy.budget) + " J";
     return;
   }
   const std::string refusal = law + ", so it needs a budget of energy, which the device " + device_label(capabilities) +

@@ -5,9 +5,18 @@
 
 #include <Eigen/Core>
 
+#include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/render/detail/energy_observer.hpp>
 
 namespace calligraphy {
+
+/// What everything() permits, and a law of which nothing is known [J].
+inline constexpr double usual_energy_budget = 0.1;
+
+/// Whether an account of the energy can be kept: of a device of known mass, whose samples are not too old.
+inline bool permits_account(const Capabilities& device) noexcept {
+  return device.apparent_mass > 0.0 && device.sample_delay <= EnergyObserver::max_delay;
+}
 
 /// How much energy may be given, and what a budget must know of the device, the hand and the loop.
 struct EnergyBudgetOptions {
@@ -60,9 +69,9 @@ class EnergyBudget {
                        const Eigen::Vector3d& viscous = Eigen::Vector3d::Zero()) noexcept;
   /// Reports the force after all limits, held from now on. Call it once after every next().
   void sent(const Eigen::Vector3d& force) noexcept;
-  /// Resets: no force sent, no energy delivered.
-  /// May be given beside the budget, which it refills [J].
+  /// Refills the budget by what may be given beside it [J].
   void earn(double energy) noexcept { spend(-energy); }
+  /// Resets: no force sent, no energy delivered.
   void restart() noexcept;
 
   /// Net energy delivered to the hand, as observed; work not yet observed is not in it [J].

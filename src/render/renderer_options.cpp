@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/render/detail/energy_observer.hpp>
 
 #include "base/require.hpp"
+#include "energy_budget.hpp"
 #include "stiffness_limits.hpp"
 
 namespace calligraphy {
@@ -87,8 +87,7 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities, do
   if (own_friction < paper_friction_coefficient)
     options.paper.friction.coefficient = paper_friction_coefficient - own_friction;
   clip_stiffness(options, capabilities, scale);
-  const bool is_modelled = capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= EnergyObserver::max_delay;
-  if (is_modelled) options.energy.budget = 0.1;
+  if (permits_account(capabilities)) options.energy.budget = usual_energy_budget;
   const bool warms = capabilities.continuous_force > 0.0 && capabilities.continuous_force < capabilities.peak_force;
   options.limits.thermal_time_constant = warms ? 10.0 : 0.0;
   if (!capabilities.simulated) options.limits.max_standstill = 0.5;

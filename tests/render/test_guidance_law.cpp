@@ -122,23 +122,18 @@ TEST_CASE("a law is told where the pen is, and of each attempt before it is aske
 }
 
 TEST_CASE("each renderer has a law of its own", "[render]") {
-  int asked = 0;
+  std::vector<int> asked;
   const GuidanceFactory counting([&asked, own = 0](const GuidanceInput&) mutable -> Point {
-    asked = ++own;
+    asked.push_back(++own);
     return Point::Zero();
   });
   for (int i = 0; i < 2; ++i) {
+    asked.clear();
     HapticRenderer renderer = renderer_of(U'一', counting);
     ScriptedPen pen(renderer);
-    pen.at({0.025, 0.045, 0.005});
-    asked = 0;
     press_beside_start(pen, renderer);
-    const int first = asked;
-    asked = 0;
-    HapticRenderer other = renderer_of(U'一', counting);
-    ScriptedPen again(other);
-    press_beside_start(again, other);
-    CHECK(asked == first);
+    REQUIRE(!asked.empty());
+    CHECK(asked.front() == 1);
   }
 }
 

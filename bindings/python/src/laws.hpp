@@ -51,19 +51,19 @@ inline std::string name_of_law(const py::object& law) {
 /// An object with a method force(), or a function. Acquires the GIL on every call.
 class PythonGuidance final : public GuidanceLaw {
  public:
-  /// Of a class each renderer makes its own object; everything else is asked as it is. Requires the GIL.
-  static GuidanceFactory factory(const py::object& given) {
-    return [law = kept(given)](const GuidanceSetup& setup) {
+  /// Of a class each renderer makes its own object; everything else is asked as it is.
+  struct Factory {
+    std::shared_ptr<const py::object> law;
+    std::unique_ptr<GuidanceLaw> operator()(const GuidanceSetup&) const {
       const py::gil_scoped_acquire gil;
-      const bool makes = &setup != &no_renderer && PyType_Check(asked(*law).ptr()) != 0;
+      const bool makes = PyType_Check(asked(*law).ptr()) != 0;
       return std::unique_ptr<GuidanceLaw>(new PythonGuidance(makes ? (*law)() : *law));
-    };
-  }
-  /// What factory() was given; null if the law is in C++. Requires the GIL.
+    }
+  };
+  /// What a factory was given; null if the law is in C++. Requires the GIL.
   static py::object given(const GuidanceFactory& factory) {
-    const auto law = factory(no_renderer);
-    const auto* const own = dynamic_cast<const PythonGuidance*>(law.get());
-    return own != nullptr ? own->law_ : py::object();
+    const auto* const own = factory.target<Factory>();
+    return own != nullptr ? *own->law : py::object();
   }
   /// Whether an object can be a law.
   static bool accepts(const py::object& given) {
@@ -112,10 +112,6 @@ class PythonGuidance final : public GuidanceLaw {
   }
 
  private:
-  static inline const GuidanceOptions no_options;
-  /// Asks a factory for what it was given: a std::function does not say what it holds.
-  static inline const GuidanceSetup no_renderer{no_options, 0.0, 0.0, 0.0};
-
   explicit PythonGuidance(py::object law)
       : law_(std::move(law)), force_(py::getattr(law_, "force", law_)), begin_(py::getattr(law_, "begin", py::none())) {
     if (begin_.is_none()) begin_ = {};
@@ -149,10 +145,6 @@ class SessionLaw {
 
   Eigen::Vector3d operator()(const DeviceState& state) const {
     const py::gil_scoped_acquire gil;
-    if (&state == &no_sample) {
-      asked = *law_;
-      return Eigen::Vector3d::Zero();
-    }
     const py::object answer = (*law_)(state);
     try {
       const Eigen::Vector3d force = vector(answer, "force");
@@ -164,14 +156,11 @@ class SessionLaw {
 
   /// The function. Requires the GIL.
   static py::object given(const ForceLaw& law) {
-    law(no_sample);
-    return std::exchange(asked, {});
+    const auto* const own = law.target<SessionLaw>();
+    return own != nullptr ? *own->law_ : py::none();
   }
 
  private:
-  static inline const DeviceState no_sample;
-  static inline py::object asked;
-
   std::shared_ptr<const py::object> law_;
 };
 
@@ -194,7 +183,7 @@ class pybind11::detail::type_caster<calligraphy::ForceLaw> {
     return true;
   }
   static handle cast(const calligraphy::ForceLaw& law, return_value_policy, handle) {
-    return law ? calligraphy::python::SessionLaw::given(law).release() : none().release();
+    return calligraphy::python::SessionLaw::given(law).release();
   }
 };
 
@@ -209,7 +198,7 @@ class pybind11::detail::type_caster<calligraphy::GuidanceFactory> {
     if (!isinstance<str>(given)) {
       const auto object = reinterpret_borrow<pybind11::object>(given);
       if (!calligraphy::python::PythonGuidance::accepts(object)) return false;
-      value = calligraphy::python::PythonGuidance::factory(object);
+      value = calligraphy::python::PythonGuidance::Factory{calligraphy::python::kept(object)};
       return true;
     }
     const auto wanted = given.cast<std::string>();

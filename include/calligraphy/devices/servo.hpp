@@ -59,6 +59,11 @@ class ForceLaw {
 
   /// The force at a sample [N, device].
   Eigen::Vector3d operator()(const DeviceState& sample) const { return ask_(sample); }
+  /// The function, if it is of this type; otherwise null.
+  template <class Type>
+  const Type* target() const noexcept {
+    return ask_.target<Type>();
+  }
   /// Whether there is a function or a renderer to ask.
   explicit operator bool() const noexcept { return static_cast<bool>(ask_); }
 

@@ -129,9 +129,14 @@ class GuidanceFactory {
 
   /// The law of one renderer.
   std::unique_ptr<GuidanceLaw> operator()(const GuidanceSetup& setup) const { return make_(setup); }
+  /// What makes the law, if it is of this type; otherwise null.
+  template <class Type>
+  const Type* target() const noexcept {
+    return make_.target<Type>();
+  }
   /// Whether it is this function, such as saturating_guidance.
-  bool is(Make* make) const {
-    Make* const* own = make_.target<Make*>();
+  bool is(Make* make) const noexcept {
+    Make* const* own = target<Make*>();
     return own && *own == make;
   }
 
