@@ -3,8 +3,8 @@
 
 #include <calligraphy/collision/constraint_space.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
-#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/model/character_list.hpp>
+#include <calligraphy/model/placed_character.hpp>
 
 int main() {
   using namespace calligraphy;

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character.hpp>
+#include <calligraphy/model/placed_character.hpp>
 
 namespace calligraphy_test {
 

@@ -7,9 +7,9 @@
 #include <CLI/CLI.hpp>
 
 #include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/pictures/stroke_style.hpp>
 #include <calligraphy/practice/page.hpp>
-#include <calligraphy/practice/stroke_matching.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 
 namespace calligraphy::tools {

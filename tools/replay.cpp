@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/judge/character_index.hpp>
+#include <calligraphy/judge/pen_trace.hpp>
 #include <calligraphy/pictures/replay_picture.hpp>
-#include <calligraphy/practice/character_index.hpp>
-#include <calligraphy/practice/pen_trace.hpp>
 #include <calligraphy/practice/session.hpp>
 
 #include "character_source.hpp"
@@ -139,9 +139,9 @@ class ReplayRun {
     return forms;
   }
 
-  StrokeTolerances tolerances() const {
-    if (options_.leniency == "lenient") return StrokeTolerances::lenient();
-    return options_.leniency == "strict" ? StrokeTolerances::strict() : StrokeTolerances::normal();
+  JudgeTolerances tolerances() const {
+    if (options_.leniency == "lenient") return JudgeTolerances::lenient();
+    return options_.leniency == "strict" ? JudgeTolerances::strict() : JudgeTolerances::normal();
   }
 
   void recognise(const std::vector<Chosen>& traces, const CharacterIndex& index) {

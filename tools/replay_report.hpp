@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/practice/character_index.hpp>
+#include <calligraphy/judge/character_index.hpp>
+#include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/practice/score.hpp>
-#include <calligraphy/practice/stroke_matching.hpp>
 
 namespace calligraphy::tools {
 

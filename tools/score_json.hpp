@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/practice/stroke_matching.hpp>
-#include <calligraphy/practice/writing_motion.hpp>
+#include <calligraphy/judge/stroke_matching.hpp>
+#include <calligraphy/judge/writing_motion.hpp>
 
 namespace calligraphy::tools {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
-#include <calligraphy/practice/stroke_matching.hpp>
 
 namespace calligraphy::tools {
 

@@ -1,4 +1,4 @@
-// Everything that writing needs: base, model, devices, collision, render and practice.
+// Everything that writing needs: base, model, judge, devices, collision, render and practice.
 #pragma once
 
 #include <calligraphy/base/error.hpp>
@@ -8,7 +8,6 @@
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/collision/constraint_space.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
-#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
 #include <calligraphy/devices/capabilities.hpp>
@@ -26,11 +25,18 @@
 #include <calligraphy/devices/servo_statistics.hpp>
 #include <calligraphy/devices/servo_thread.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/judge/dtw_distance.hpp>
+#include <calligraphy/judge/pen_kinematics.hpp>
+#include <calligraphy/judge/pen_path.hpp>
+#include <calligraphy/judge/pen_trace.hpp>
+#include <calligraphy/judge/stroke_matching.hpp>
+#include <calligraphy/judge/writing_motion.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/ink_outline.hpp>
+#include <calligraphy/model/placed_character.hpp>
 #include <calligraphy/model/point.hpp>
 #include <calligraphy/model/provenance.hpp>
 #include <calligraphy/model/set_encoding.hpp>
@@ -38,19 +44,13 @@
 #include <calligraphy/model/stroke_polyline.hpp>
 #include <calligraphy/model/typical_ink.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
-#include <calligraphy/practice/dtw_distance.hpp>
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/mean_interval.hpp>
 #include <calligraphy/practice/page.hpp>
-#include <calligraphy/practice/pen_kinematics.hpp>
-#include <calligraphy/practice/pen_path.hpp>
-#include <calligraphy/practice/pen_trace.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
-#include <calligraphy/practice/stroke_matching.hpp>
 #include <calligraphy/practice/writer.hpp>
-#include <calligraphy/practice/writing_motion.hpp>
 #include <calligraphy/render/assist_policy.hpp>
 #include <calligraphy/render/force_terms.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>

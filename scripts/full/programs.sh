@@ -10,7 +10,7 @@ cmake -S . -B "$build/programs" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPH
 cmake --build "$build/programs" --target programs
 ctest --test-dir "$build/programs" --output-on-failure --no-tests=error -R "/the benchmark of "
 "$build/programs/tests/guidance/guidance_judge" pairs --cases 2 > /dev/null
-"$build/programs/tests/judge/stroke_judge" --written 4 --cases 2 > /dev/null
+"$build/programs/tests/stroke_judge/stroke_judge" --written 4 --cases 2 > /dev/null
 "$build/programs/tests/stability/guidance_sweep" --cases 2 > /dev/null
 "$build/programs/tests/stability/energy_account" --ticks 100 --draw 2 > /dev/null
 "$build/programs/tests/fuzz/nearest_point_fuzz" --queries 20000 --ticks 20000 > /dev/null

@@ -201,17 +201,6 @@ calligraphy_renderer_options to_c(const RendererOptions& from) noexcept {
   return result;
 }
 
-StrokeTolerances tolerances_of(std::int32_t tolerance) {
-  switch (enumeration("tolerance", tolerance, CALLIGRAPHY_TOLERANCE_STRICT)) {
-    case CALLIGRAPHY_TOLERANCE_LENIENT:
-      return StrokeTolerances::lenient();
-    case CALLIGRAPHY_TOLERANCE_STRICT:
-      return StrokeTolerances::strict();
-    default:
-      return StrokeTolerances::normal();
-  }
-}
-
 DeviceState state_of(const calligraphy_device_state* given) noexcept {
   calligraphy_device_state whole;
   if (given->size < sizeof whole) given = copy_struct(given, &whole);

@@ -48,8 +48,18 @@ calligraphy_capabilities to_c(const Capabilities& from) noexcept;
 RendererOptions options_of(const calligraphy_renderer_options* from);
 calligraphy_renderer_options to_c(const RendererOptions& from) noexcept;
 
-/// @throws Refusal if the value is none
-StrokeTolerances tolerances_of(std::int32_t tolerance);
+/// The StrokeTolerances or JudgeTolerances of a calligraphy_tolerance. @throws Refusal if the value is none
+template <class Tolerances>
+Tolerances tolerances_of(std::int32_t tolerance) {
+  switch (enumeration("tolerance", tolerance, CALLIGRAPHY_TOLERANCE_STRICT)) {
+    case CALLIGRAPHY_TOLERANCE_LENIENT:
+      return Tolerances::lenient();
+    case CALLIGRAPHY_TOLERANCE_STRICT:
+      return Tolerances::strict();
+    default:
+      return Tolerances::normal();
+  }
+}
 
 /// A sample whose size check_size() has accepted. What is not known is NaN. A status that is none counts as a fault.
 DeviceState state_of(const calligraphy_device_state* from) noexcept;

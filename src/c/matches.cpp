@@ -37,7 +37,7 @@ calligraphy_status calligraphy_match_strokes(const calligraphy_page* page, int32
       target(points, "points");
       paths = paths_in_square(points, {&target(path_sizes, "path_sizes"), path_count}, placed.placement);
     }
-    hand_out(match, std::make_shared<MatchResult>(match_strokes(placed.character, paths, tolerances_of(tolerance))));
+    hand_out(match, std::make_shared<MatchResult>(match_strokes(placed.character, paths, tolerances_of<JudgeTolerances>(tolerance))));
   });
 }
 

@@ -9,12 +9,12 @@
 #include <calligraphy/devices/pointer_device.hpp>
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/score.hpp>
-#include <calligraphy/practice/stroke_matching.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 
 #include "handles.hpp"

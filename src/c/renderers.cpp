@@ -42,7 +42,7 @@ calligraphy_status calligraphy_renderer_options_for(const calligraphy_capabiliti
                                                     calligraphy_renderer_options* options) {
   return guarded([&] {
     RendererOptions result = preset_of(preset, capabilities_of(capabilities), scale);
-    const StrokeTolerances tolerances = tolerances_of(tolerance);
+    const auto tolerances = tolerances_of<StrokeTolerances>(tolerance);
     if (preset != CALLIGRAPHY_PRESET_WANG2006 || tolerance != CALLIGRAPHY_TOLERANCE_NORMAL)
       result.tolerances = tolerances;
     write_struct(options, "calligraphy_renderer_options", to_c(result));

@@ -76,7 +76,7 @@ calligraphy_status calligraphy_score_recording(const calligraphy_recording* reco
                                                calligraphy_score** score) {
   return guarded([&] {
     const auto& [page, written] = object<RecordingObject>(recording);
-    const StrokeTolerances tolerances = tolerances_of(tolerance);
+    const auto tolerances = tolerances_of<JudgeTolerances>(tolerance);
     target(score, "score");
     hand_out(score, std::make_shared<Scores>(score_page(*page, written, tolerances)));
   });

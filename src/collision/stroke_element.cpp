@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "length.hpp"
@@ -45,6 +46,19 @@ StrokeElement prepare_element(std::span<const Point> control_points) noexcept {
   if (all_within(min_curve)) return {prepare_line(start, start)};
   if (control_points.size() == 2) return {prepare_line(start, control_points.back())};
   return {prepare_curve(control_points)};
+}
+
+std::vector<StrokeElement> place_elements(const Stroke& stroke, const Placement& placement) {
+  std::vector<StrokeElement> elements;
+  const std::vector<int> ends = feature_points(stroke.elements, stroke.curve_degree);
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    std::vector<Point> points;
+    for (int k = ends[i]; k <= ends[i + 1]; ++k) {
+      points.push_back(placement.to_page(stroke.control_points[static_cast<std::size_t>(k)]));
+    }
+    elements.push_back(prepare_element(points));
+  }
+  return elements;
 }
 
 }  // namespace calligraphy

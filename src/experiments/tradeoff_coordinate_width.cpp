@@ -3,8 +3,8 @@
 #include <cstddef>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/experiments/tradeoff.hpp>
+#include <calligraphy/model/placed_character.hpp>
 
 #include "base/require.hpp"
 

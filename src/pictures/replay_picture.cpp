@@ -10,7 +10,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/typical_ink.hpp>
 
-#include "practice/resemblance.hpp"
+#include "judge/pens/resemblance.hpp"
 #include "svg.hpp"
 
 namespace calligraphy {

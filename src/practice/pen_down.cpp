@@ -36,4 +36,13 @@ std::vector<PenDown> pen_downs(const Recording& recording) {
   return result;
 }
 
+std::vector<PenPath> pen_paths(const Recording& recording, const Placement& placement) {
+  std::vector<PenPath> paths;
+  for (const PenDown& down : pen_downs(recording)) {
+    PenPath& path = paths.emplace_back();
+    for (const TimedPoint& sample : down.samples) path.push_back((sample.point - placement.origin) / placement.em);
+  }
+  return paths;
+}
+
 }  // namespace calligraphy

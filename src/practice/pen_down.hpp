@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include <calligraphy/practice/pen_trace.hpp>
+#include <calligraphy/judge/pen_trace.hpp>
 #include <calligraphy/practice/recording.hpp>
 
 namespace calligraphy {

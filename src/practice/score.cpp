@@ -6,14 +6,14 @@
 #include <limits>
 #include <span>
 
-#include <calligraphy/practice/dtw_distance.hpp>
-#include <calligraphy/practice/pen_path.hpp>
+#include <calligraphy/judge/dtw_distance.hpp>
+#include <calligraphy/judge/pen_path.hpp>
 
+#include "judge/pens/resemblance.hpp"
+#include "judge/pens/stroke_alignment.hpp"
+#include "judge/reading/unfinished_character.hpp"
 #include "pen_down.hpp"
 #include "recorded_page.hpp"
-#include "resemblance.hpp"
-#include "stroke_alignment.hpp"
-#include "unfinished_character.hpp"
 
 namespace calligraphy {
 namespace {
@@ -129,7 +129,7 @@ double mean_pressure(std::span<const PenDown* const> downs) {
 
 class CharacterScorer {
  public:
-  CharacterScorer(const PlacedCharacter& placed, std::vector<const PenDown*> downs, const StrokeTolerances& tolerances)
+  CharacterScorer(const PlacedCharacter& placed, std::vector<const PenDown*> downs, const JudgeTolerances& tolerances)
       : placement_(placed.placement), downs_(std::move(downs)) {
     for (const Stroke& stroke : strokes(placed.character)) templates_.emplace_back(stroke, placement_);
     result_.character = placed.character.code;
@@ -371,7 +371,7 @@ void add_session(const Recording& recording, const PracticePage& page, std::vect
 }  // namespace
 
 std::vector<CharacterScore> score_page(const PracticePage& page, const Recording& recording,
-                                       const StrokeTolerances& tolerances) {
+                                       const JudgeTolerances& tolerances) {
   if (page.characters.empty()) return {};
   validate(page.characters);
   require_same_page(page, recording);

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include <calligraphy/collision/placed_character.hpp>
-#include <calligraphy/practice/pen_path.hpp>
-#include <calligraphy/practice/pen_trace.hpp>
+#include <calligraphy/judge/pen_path.hpp>
+#include <calligraphy/judge/pen_trace.hpp>
+#include <calligraphy/model/placed_character.hpp>
 
 namespace calligraphy {
 

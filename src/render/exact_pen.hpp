@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/model/placed_character.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 

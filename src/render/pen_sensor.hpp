@@ -7,10 +7,10 @@
 
 #include <Eigen/Core>
 
-#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/devices/velocity_estimator.hpp>
+#include <calligraphy/model/placed_character.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <calligraphy/collision/active_stroke.hpp>
-#include <calligraphy/collision/placed_character.hpp>
+#include <calligraphy/model/placed_character.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 
 #include "stroke_capture.hpp"

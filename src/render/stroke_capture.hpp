@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include <calligraphy/collision/placed_character.hpp>
+#include <calligraphy/model/placed_character.hpp>
 #include <calligraphy/render/stroke_tolerances.hpp>
 
 namespace calligraphy {

@@ -17,7 +17,6 @@ void validate(const StrokeTolerances& tolerances) {
   require_within("tolerances.corridor", tolerances.corridor, "em", 0.01, 0.5, resolution);
   require_within("tolerances.coverage", tolerances.coverage, "", 0.0, 1.0);
   require_within("tolerances.slack", tolerances.slack, "em", 0.0, 0.5, "more is longer than most strokes");
-  require_above_zero("tolerances.evidence", tolerances.evidence, "");
 }
 
 }  // namespace calligraphy

@@ -8,12 +8,12 @@
 
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/servo.hpp>
+#include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/model/ink_outline.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 #include <calligraphy/model/stroke_polyline.hpp>
 #include <calligraphy/model/typical_ink.hpp>
 #include <calligraphy/practice/page.hpp>
-#include <calligraphy/practice/stroke_matching.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 
 #include "c_interface.hpp"

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
 #include <calligraphy/model/character_list.hpp>
+#include <calligraphy/model/placed_character.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../hard_cases.hpp"

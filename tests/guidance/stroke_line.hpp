@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <calligraphy/base/random.hpp>
-#include <calligraphy/collision/placed_character.hpp>
+#include <calligraphy/model/placed_character.hpp>
 #include <calligraphy/practice/page.hpp>
 
 namespace calligraphy_test {

@@ -8,7 +8,7 @@
 
 #include "../catch.hpp"
 #include "../practice/pages.hpp"
-#include "../practice/pen_traces.hpp"
+#include "../judge/pen_traces.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::copy_of;

@@ -5,21 +5,13 @@
 #include <string_view>
 #include <vector>
 
-#include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
-#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/session.hpp>
 
-namespace calligraphy_test {
+#include "../characters.hpp"
 
-inline std::vector<calligraphy::Character> characters(std::string_view text) {
-  std::vector<calligraphy::Character> found;
-  for (const char32_t code : calligraphy::decode_utf8(text)) {
-    found.push_back(*calligraphy::built_in_characters().find(code));
-  }
-  return found;
-}
+namespace calligraphy_test {
 
 inline calligraphy::PracticePage page_of(std::string_view text) {
   return calligraphy::lay_out(characters(text)).front();

@@ -13,9 +13,9 @@
 #include <calligraphy/practice/recording.hpp>
 
 #include "../catch.hpp"
+#include "../endless_text.hpp"
 #include "../special_values.hpp"
 #include "../temporary_directory.hpp"
-#include "endless_text.hpp"
 
 using namespace calligraphy;
 

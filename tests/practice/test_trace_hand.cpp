@@ -5,13 +5,13 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
-#include <calligraphy/practice/stroke_matching.hpp>
 
 #include "../catch.hpp"
+#include "../judge/pen_traces.hpp"
 #include "pages.hpp"
-#include "pen_traces.hpp"
 #include "practice/trace_hand.hpp"
 
 using namespace calligraphy;

@@ -360,7 +360,6 @@ TEST_CASE("tolerances are sensible in every preset, stricter ones in every respe
     CHECK(looser.corridor > tighter.corridor);
     CHECK(looser.coverage < tighter.coverage);
     CHECK(looser.slack > tighter.slack);
-    CHECK(looser.evidence > tighter.evidence);
   }
   const StrokeTolerances standard = RendererOptions{}.tolerances;
   CHECK(standard.coverage == 0.9);

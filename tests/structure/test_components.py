@@ -11,16 +11,17 @@ import sys
 BELOW = {
     "base": [],
     "model": ["base"],
+    "judge": ["base", "model"],
     "importers": ["base", "model"],
     "devices": ["base"],
     "phantom": ["base", "devices"],
     "openhaptics": ["base", "devices"],
     "collision": ["base", "model"],
     "render": ["base", "model", "devices", "collision"],
-    "practice": ["base", "model", "devices", "collision", "render"],
-    "pictures": ["base", "model", "devices", "collision", "render", "practice"],
-    "experiments": ["base", "model", "devices", "collision", "render", "practice", "pictures"],
-    "c": ["base", "model", "devices", "collision", "render", "practice"],
+    "practice": ["base", "model", "judge", "devices", "collision", "render"],
+    "pictures": ["base", "model", "judge", "devices", "collision", "render", "practice"],
+    "experiments": ["base", "model", "judge", "devices", "collision", "render", "practice", "pictures"],
+    "c": ["base", "model", "judge", "devices", "collision", "render", "practice"],
 }
 BACKENDS = ["phantom", "openhaptics"]  # folders beneath devices
 

@@ -1,7 +1,6 @@
 // Nearest points in batches, and the rules of the active stroke.
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
-#include <calligraphy/collision/placed_character.hpp>
 
 #include "components.hpp"
 
@@ -138,18 +137,6 @@ void add_collision(py::module_& module) {
   py::class_<ActiveStroke>(module, "ActiveStroke", "The stroke that is due, as begin() of a guidance law is told.")
       .def_property_readonly("length", &ActiveStroke::length)
       .def("at", &ActiveStroke::at, "arc"_a);
-  add_struct<Placement>(module).def(
-      "to_page",
-      [](const Placement& self, const ArrayLike& value) {
-        std::vector<Point> result = points(value, "points");
-        for (Point& each : result) each = self.to_page(each);
-        return array_of_points(result);
-      },
-      "points"_a, "+ (n, 2) [em] to (n, 2) [m].");
-  py::class_<PlacedCharacter>(module, "PlacedCharacter")
-      .def(py::init<Character, Placement>(), "character"_a, "placement"_a = Placement{})
-      .def_readonly("character", &PlacedCharacter::character)
-      .def_readonly("placement", &PlacedCharacter::placement);
   module.def("place_elements", &place_elements, "stroke"_a, "placement"_a);
 }
 

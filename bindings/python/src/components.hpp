@@ -25,6 +25,7 @@
 namespace calligraphy::python {
 
 void add_model(py::module_& module);
+void add_judge(py::module_& module);
 void add_collision(py::module_& module);
 void add_devices(py::module_& module);
 void add_kinematics(py::module_& module);

@@ -16,8 +16,8 @@
 
 #include <Eigen/Geometry>
 
-#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/devices/servo.hpp>
+#include <calligraphy/model/placed_character.hpp>
 #include <calligraphy/render/guidance_law.hpp>
 
 #include "arrays.hpp"

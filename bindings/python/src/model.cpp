@@ -265,6 +265,19 @@ void add_model(py::module_& module) {
       .def("list", released(+[](const CharacterSet& self) { return self.list(); }))
       .def("check", released(+[](const CharacterSet& self) { self.check(); }))
       .def("__repr__", [](const CharacterSet& self) { return told("CharacterSet({} characters)", self.size()); });
+
+  add_struct<Placement>(module).def(
+      "to_page",
+      [](const Placement& self, const ArrayLike& value) {
+        std::vector<Point> result = points(value, "points");
+        for (Point& each : result) each = self.to_page(each);
+        return array_of_points(result);
+      },
+      "points"_a, "+ (n, 2) [em] to (n, 2) [m].");
+  py::class_<PlacedCharacter>(module, "PlacedCharacter")
+      .def(py::init<Character, Placement>(), "character"_a, "placement"_a = Placement{})
+      .def_readonly("character", &PlacedCharacter::character)
+      .def_readonly("placement", &PlacedCharacter::placement);
 }
 
 }  // namespace calligraphy::python

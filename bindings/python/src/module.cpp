@@ -87,6 +87,7 @@ PYBIND11_MODULE(_calligraphy, module) {
   add_error<FormatError>(module, "FormatError", PyExc_ValueError, "Malformed text or data.");
   add_error<DeviceError>(module, "DeviceError", PyExc_OSError, "A device that cannot be opened or has failed.");
   add_model(module);
+  add_judge(module);
   add_collision(module);
   add_devices(module);
   add_kinematics(module);

@@ -1,17 +1,13 @@
 // Pages, writers, recordings, scores, imports and pictures.
 #include <optional>
-#include <variant>
 
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/pictures/picture.hpp>
-#include <calligraphy/practice/dtw_distance.hpp>
 #include <calligraphy/practice/mean_interval.hpp>
-#include <calligraphy/practice/pen_kinematics.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
-#include <calligraphy/practice/stroke_matching.hpp>
 
 #include "components.hpp"
 
@@ -55,65 +51,15 @@ auto reporting(Result (*function)(Arguments...)) {
   };
 }
 
-PenStroke pen_stroke(const ArrayLike& samples, const char* name) {
-  const Doubles rows = doubles(samples, name, 3);
-  PenStroke result;
-  for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
-    result.push_back({Point(rows.at(i, 0), rows.at(i, 1)), rows.at(i, 2)});
-  }
-  return result;
-}
-
-PenTrace trace_of(char32_t character, const std::vector<ArrayLike>& strokes, std::string set, double em) {
-  PenTrace result{character, std::move(set), em, {}};
-  for (const ArrayLike& stroke : strokes) result.strokes.push_back(pen_stroke(stroke, "strokes"));
-  return result;
-}
-
-std::vector<PenPath> paths_of(const std::vector<ArrayLike>& paths) {
-  std::vector<PenPath> drawn;
-  for (const ArrayLike& path : paths) drawn.push_back(points(path, "paths"));
-  return drawn;
-}
-
-/// One character, or several forms of one.
-using Accepted = std::variant<Character, std::vector<Character>>;
-
-MatchResult match_of(const Accepted& character, const std::vector<ArrayLike>& paths, const StrokeTolerances& tolerances,
-                     const std::optional<CharacterIndex>& others) {
-  const auto* const one = std::get_if<Character>(&character);
-  const std::span<const Character> accepted =
-      one ? std::span(one, 1) : std::span<const Character>(std::get<std::vector<Character>>(character));
-  const std::vector<PenPath> drawn = paths_of(paths);
-  const StrokeTolerances chosen = tolerances;
-  const py::gil_scoped_release release;
-  return match_strokes(accepted, drawn, chosen, others ? &*others : nullptr);
-}
-
-using Arrays = py::typing::List<Doubles>;
-
-Arrays pen_downs(const PenTrace& trace) {
-  Arrays result;
-  for (const PenStroke& stroke : trace.strokes) {
-    Doubles rows({static_cast<py::ssize_t>(stroke.size()), py::ssize_t{3}});
-    double* to = rows.mutable_data();
-    for (const TimedPoint& sample : stroke) *to++ = sample.point.x(), *to++ = sample.point.y(), *to++ = sample.time;
-    result.append(rows);
-  }
-  return result;
-}
-
 }  // namespace
 
 void add_practice(py::module_& module) {
-  add_types<PageLayout, PracticePage, DrawnStroke, StrokeRemark, RecognisedCharacter, AffineMap, MeanInterval,
-            InkDetail, StrokeStyle>(module);
+  add_types<PageLayout, PracticePage, MeanInterval, InkDetail, StrokeStyle>(module);
   add_struct<WriterSkill>(module)
       .def_static("novice", &WriterSkill::novice)
       .def_static("skilled", &WriterSkill::skilled);
   add_struct<SessionOptions>(module);
-  add_struct<MatchResult>(module).def("count", &MatchResult::count, "kind"_a);
-  add_types<PenKinematics, WritingMotion, StrokeScore, PenDownScore, MeanScore>(module);
+  add_types<StrokeScore, PenDownScore, MeanScore>(module);
   add_struct<CharacterScore>(module)
       .def("order_mistakes", &CharacterScore::order_mistakes)
       .def("direction_mistakes", &CharacterScore::direction_mistakes);
@@ -137,16 +83,6 @@ void add_practice(py::module_& module) {
       [](const std::vector<Character>& characters, const PageLayout& layout) { return lay_out(characters, layout); },
       "characters"_a, "layout"_a = PageLayout{});
 
-  py::class_<PenTrace>(module, "PenTrace")
-      .def(py::init(&trace_of), "character"_a, "strokes"_a, "set"_a = "unnamed", "em"_a = 1000.0)
-      .def_readonly("character", &PenTrace::character)
-      .def_property_readonly("strokes", &pen_downs, "one array (n, 3) per pen-down, copied: x, y [em], time [s]")
-      .def_readonly("set", &PenTrace::set)
-      .def_readonly("em", &PenTrace::em);
-  module.def("read_pen_traces", from_file(&read_pen_traces), "path"_a);
-  module.def("write_pen_traces", to_file(&write_pen_traces), "path"_a, "traces"_a, "notice"_a = "",
-             "+ Atomically. Raises FileError.");
-
   module.def("write_page", reporting(&write_page), "page"_a, "options"_a, "progress"_a = py::none(),
              "+ progress(share) is called from time to time.");
   module.def("follow_trace", reporting(&follow_trace), "page"_a, "trace"_a, "options"_a, "progress"_a = py::none(),
@@ -166,40 +102,11 @@ void add_practice(py::module_& module) {
       "coordinates, or None to end.");
 
   module.def("page_id", &page_id, "page"_a);
-  module.def("score_page", released(&score_page), "page"_a, "recording"_a, "tolerances"_a = StrokeTolerances());
+  module.def("score_page", released(&score_page), "page"_a, "recording"_a, "tolerances"_a = JudgeTolerances());
   module.def(
       "mean_score", [](const std::vector<CharacterScore>& scores) { return mean_score(scores); }, "scores"_a);
   module.def("page_picture", released(&page_picture), "page"_a, "recording"_a, "active"_a = 0, "title"_a = "",
              "style"_a = StrokeStyle::ink);
-
-  py::class_<CharacterIndex>(module, "CharacterIndex")
-      .def(py::init(released(+[](const CharacterSet& set) { return CharacterIndex(set); })), "characters"_a)
-      .def(py::init(released(+[](const CharacterList& list) { return CharacterIndex(CharacterSet(list)); })),
-           "characters"_a)
-      .def("__len__", &CharacterIndex::size)
-      .def(
-          "recognise",
-          [](const CharacterIndex& self, const std::vector<ArrayLike>& paths, std::size_t most) {
-            return self.recognise(paths_of(paths), most);
-          },
-          "paths"_a, "most"_a = 10, "+ Each path is an array (n, 2).");
-  module.def("match_strokes", &match_of, "character"_a, "paths"_a, "tolerances"_a = StrokeTolerances(),
-             "others"_a = py::none(),
-             "+ Each path is an array (n, 2) [em]. Several accepted forms are a list of characters.");
-
-  module.def(
-      "pen_kinematics",
-      [](const ArrayLike& pen_down) { return released(&pen_kinematics)(pen_stroke(pen_down, "pen_down")); },
-      "pen_down"_a, "+ An array (n, 3) as in PenTrace.strokes: x, y, time.");
-  module.def(
-      "writing_motion", [](const std::vector<PenKinematics>& pen_downs) { return writing_motion(pen_downs); },
-      "pen_downs"_a);
-  module.def(
-      "dtw_distance",
-      [](const ArrayLike& one, const ArrayLike& other) {
-        return dtw_distance(points(one, "one"), points(other, "other"));
-      },
-      "one"_a, "other"_a, "+ Arrays (n, 2).");
 
   module.def(
       "mean_interval",

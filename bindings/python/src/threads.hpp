@@ -16,8 +16,8 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
+#include <calligraphy/judge/pen_trace.hpp>
 #include <calligraphy/model/character_set.hpp>
-#include <calligraphy/practice/pen_trace.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 

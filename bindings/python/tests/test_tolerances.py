@@ -181,8 +181,9 @@ def test_a_novice_finishes_fewer_strokes_at_the_first_touch_the_stricter_the_pre
     assert strict < normal <= lenient
 
 
-@pytest.mark.parametrize("tolerances", PRESETS.values(), ids=PRESETS)
-def test_a_slanted_stroke_is_told_beyond_the_angle_of_its_preset(tolerances):
+@pytest.mark.parametrize("preset", PRESETS)
+def test_a_slanted_stroke_is_told_beyond_the_angle_of_its_preset(preset):
+    tolerances = getattr(cal.JudgeTolerances, preset)()
     one, told_from = cal.built_in_characters()["一"], tolerances.evidence * math.pi / 3
     for angle, remarks in ((told_from - 0.14, 0), (told_from + 0.14, 1)):
         arm = 0.3 * np.array([math.cos(angle), math.sin(angle)])
@@ -196,8 +197,8 @@ def test_a_slanted_stroke_is_told_beyond_the_angle_of_its_preset(tolerances):
 
 def test_wrong_tolerances_and_paths_are_refused_by_the_judge_of_strokes():
     one = cal.built_in_characters()["一"]
-    with pytest.raises(cal.InvalidValue, match="tolerances.direction = 4"):
-        cal.match_strokes(one, [[(0, 0), (1, 1)]], cal.StrokeTolerances(direction=4.0))
+    with pytest.raises(cal.InvalidValue, match="tolerances.evidence = -1"):
+        cal.match_strokes(one, [[(0, 0), (1, 1)]], cal.JudgeTolerances(evidence=-1.0))
     for paths in ([[(0, 0, 0)]], [np.zeros((0, 2))], [[(math.nan, 0)]]):
         with pytest.raises(cal.InvalidValue):
             cal.match_strokes(one, paths)

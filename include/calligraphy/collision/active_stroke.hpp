@@ -6,7 +6,7 @@
 
 #include <calligraphy/collision/constraint_space.hpp>
 #include <calligraphy/collision/detail/feature_plane.hpp>
-#include <calligraphy/collision/placed_character.hpp>
+#include <calligraphy/model/placed_character.hpp>
 
 namespace calligraphy {
 

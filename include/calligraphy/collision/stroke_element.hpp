@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <span>
 #include <variant>
+#include <vector>
 
 #include <calligraphy/collision/detail/curve_element.hpp>
 #include <calligraphy/collision/detail/line_element.hpp>
+#include <calligraphy/model/placed_character.hpp>
 
 namespace calligraphy {
 
@@ -54,5 +56,8 @@ struct StrokeElement {
 /// If one is not finite or farther than 1e150 m from the first, or for any other number of points, the length is NaN
 /// and every query returns the status not_finite. Does not allocate.
 StrokeElement prepare_element(std::span<const Point> control_points) noexcept;
+
+/// The elements of a stroke as placed, in writing order, prepared for queries [m].
+std::vector<StrokeElement> place_elements(const Stroke& stroke, const Placement& placement);
 
 }  // namespace calligraphy

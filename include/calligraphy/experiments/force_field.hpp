@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <calligraphy/collision/active_stroke.hpp>
-#include <calligraphy/collision/placed_character.hpp>
+#include <calligraphy/model/placed_character.hpp>
 
 namespace calligraphy {
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <string>
 
+#include <calligraphy/judge/pen_path.hpp>
+#include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/pictures/stroke_style.hpp>
-#include <calligraphy/practice/pen_path.hpp>
-#include <calligraphy/practice/stroke_matching.hpp>
 
 namespace calligraphy {
 

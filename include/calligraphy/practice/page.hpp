@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/model/placed_character.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 
 namespace calligraphy {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/judge/pen_path.hpp>
+#include <calligraphy/model/placed_character.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 
@@ -48,6 +50,12 @@ void write_recording(std::ostream& out, const Recording& recording);
 Recording read_recording(std::istream& in, std::string_view name);
 /// Reads a file in this format. @throws FileError when it cannot be opened, FormatError as above
 Recording read_recording(const std::filesystem::path& path);
+
+/// The pen-downs of a recording, in the coordinates of a character's square, whether or not the renderer accepted them
+/// as strokes: the samples from each contact to the lift, without rejected ones. A lift of at most 50 ms is a bounce,
+/// not an intended lift: voluntary motion ends at 10 Hz. Nor does a pen-down end where samples are lost for at most
+/// 100 ms and none shows a lift.
+std::vector<PenPath> pen_paths(const Recording& recording, const Placement& placement);
 
 /// The device point of each sample in device axes, for a ReplayDevice with the same mapping. A bad sample has no
 /// position (NaN) and a device fault is marked as one, so both are replayed as recorded.

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
+#include <calligraphy/judge/pen_kinematics.hpp>
+#include <calligraphy/judge/stroke_matching.hpp>
+#include <calligraphy/judge/writing_motion.hpp>
 #include <calligraphy/practice/page.hpp>
-#include <calligraphy/practice/pen_kinematics.hpp>
 #include <calligraphy/practice/recording.hpp>
-#include <calligraphy/practice/stroke_matching.hpp>
-#include <calligraphy/practice/writing_motion.hpp>
 
 namespace calligraphy {
 
@@ -86,7 +86,7 @@ struct CharacterScore {
 /// @throws ValueError when the page or a tolerance is invalid, when the recording was made on another page
 /// (Recording::page, or events that this page cannot have had), when its time runs backwards, or as match_strokes()
 std::vector<CharacterScore> score_page(const PracticePage& page, const Recording& recording,
-                                       const StrokeTolerances& tolerances = {});
+                                       const JudgeTolerances& tolerances = {});
 
 /// Means over characters, and over how much of them.
 struct MeanScore {

@@ -8,8 +8,8 @@
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/judge/pen_trace.hpp>
 #include <calligraphy/practice/page.hpp>
-#include <calligraphy/practice/pen_trace.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/writer.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>

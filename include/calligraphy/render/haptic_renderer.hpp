@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/model/placed_character.hpp>
 #include <calligraphy/render/guidance_law.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/motion_mapping.hpp>

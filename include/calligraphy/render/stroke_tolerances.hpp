@@ -5,9 +5,8 @@
 
 namespace calligraphy {
 
-/// Tolerances of the renderer and of match_strokes(), relative to the character's square and to the stroke, so that
-/// they mean the same at every size. match_strokes() judges whole pen-downs after the event: it needs only `evidence`,
-/// which the renderer does not. The default is normal().
+/// Tolerances of the renderer, relative to the character's square and to the stroke, so that they mean the same at
+/// every size. JudgeTolerances say what is remarked on whole pen-downs after the event. The default is normal().
 struct StrokeTolerances {
   /// A stroke begins within this distance of its start [em].
   double start_distance = 0.2;
@@ -31,22 +30,19 @@ struct StrokeTolerances {
   double coverage = 0.9;
   /// Length that may be missing besides, so that short strokes are taken too [em].
   double slack = 0.04;
-  /// Least StrokeRemark::evidence of what match_strokes() tells. It reads the writing in the same way whatever this is,
-  /// so that a lower value tells the same and more [1].
-  double evidence = 1.0;
 
   /// Whether all are the same.
   bool operator==(const StrokeTolerances&) const = default;
 
   /// For beginners and for large devices held loosely.
   static constexpr StrokeTolerances lenient() noexcept {
-    return {0.25, std::numbers::pi / 2.5, 0.04, 3.0, 0.08, 0.8, 0.06, 1.3};
+    return {0.25, std::numbers::pi / 2.5, 0.04, 3.0, 0.08, 0.8, 0.06};
   }
   /// The default.
   static constexpr StrokeTolerances normal() noexcept { return {}; }
   /// For examinations.
   static constexpr StrokeTolerances strict() noexcept {
-    return {0.1, std::numbers::pi / 4.0, 0.04, 1.5, 0.05, 0.95, 0.02, 0.75};
+    return {0.1, std::numbers::pi / 4.0, 0.04, 1.5, 0.05, 0.95, 0.02};
   }
 };
 

@@ -1,0 +1,26 @@
+// How sure or how grave a remark on somebody's writing must be.
+#pragma once
+
+namespace calligraphy {
+
+/// Tolerances of match_strokes(). The default is normal().
+struct JudgeTolerances {
+  /// Least StrokeRemark::evidence of a remark. The writing is read in the same way whatever this is, so a lower value
+  /// gives the same remarks and more [1].
+  double evidence = 1.0;
+
+  /// Whether all are the same.
+  bool operator==(const JudgeTolerances&) const = default;
+
+  /// For beginners: only what is clearly wrong.
+  static constexpr JudgeTolerances lenient() noexcept { return {1.3}; }
+  /// The default.
+  static constexpr JudgeTolerances normal() noexcept { return {}; }
+  /// For examinations.
+  static constexpr JudgeTolerances strict() noexcept { return {0.75}; }
+};
+
+/// @throws ValueError naming the tolerance and its value when it is not above 0 and finite
+void validate(const JudgeTolerances& tolerances);
+
+}  // namespace calligraphy

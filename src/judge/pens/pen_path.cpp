@@ -1,0 +1,69 @@
+#include <calligraphy/judge/pen_path.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <calligraphy/model/placed_character.hpp>
+
+#include "writing_box.hpp"
+
+namespace calligraphy {
+namespace {
+
+constexpr double flat = 0.15;        // a side of a box below this is flat [em], or relative to the other one
+constexpr double max_stretch = 1.5;  // of one axis against the other
+
+/// Without taps.
+Eigen::AlignedBox2d box_of(std::span<const PenPath> paths) {
+  const double tap = tap_length * shortening(paths);
+  Eigen::AlignedBox2d written;
+  for (const PenPath& path : paths) {
+    if (path_length(path) < tap) continue;
+    for (const Point& point : path) written.extend(point);
+  }
+  return written.isEmpty() ? box_of_all(paths) : written;
+}
+
+double flat_below(const Eigen::AlignedBox2d& box) { return flat * std::min(1.0, box.sizes().maxCoeff()); }
+
+}  // namespace
+
+double path_length(std::span<const Point> path) noexcept {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return length;
+}
+
+std::vector<PenPath> pen_paths(const PenTrace& trace) {
+  std::vector<PenPath> paths;
+  for (const PenStroke& stroke : trace.strokes) {
+    if (stroke.empty()) continue;
+    PenPath& path = paths.emplace_back();
+    for (const TimedPoint& timed : stroke) path.push_back(timed.point);
+  }
+  return paths;
+}
+
+BoxMap fit_box(std::span<const PenPath> paths, const Character& character) {
+  BoxMap map;
+  const Eigen::AlignedBox2d from = box_of(paths);
+  if (from.isEmpty()) return map;
+  const Eigen::AlignedBox2d to = bounding_box({character, {Point::Zero(), 1.0}});
+  const Point sides = from.sizes(), wanted = to.sizes();
+  const double flat_side = flat_below(from), flat_wanted = flat_below(to);
+  const bool flat_x = sides.x() < flat_side || wanted.x() < flat_wanted;
+  const bool flat_y = sides.y() < flat_side || wanted.y() < flat_wanted;
+  if (!flat_x) map.scale.x() = wanted.x() / sides.x();
+  if (!flat_y) map.scale.y() = wanted.y() / sides.y();
+  if (flat_x) map.scale.x() = map.scale.y();
+  if (flat_y) map.scale.y() = map.scale.x();
+  const double mean = std::sqrt(map.scale.x() * map.scale.y());
+  const double limit = std::sqrt(max_stretch);
+  const double stretch = std::clamp(std::sqrt(map.scale.x() / map.scale.y()), 1.0 / limit, limit);
+  map.scale = {mean * stretch, mean / stretch};
+  map.offset = to.center() - map.scale.cwiseProduct(from.center());
+  return map;
+}
+
+}  // namespace calligraphy

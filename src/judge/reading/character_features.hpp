@@ -1,0 +1,62 @@
+// What characters look like as a whole, stroke by stroke, to tell one from another.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <calligraphy/model/character_set.hpp>
+
+#include "judge/pens/resemblance.hpp"
+
+namespace calligraphy {
+
+/// Points of each stroke in a feature.
+inline constexpr Eigen::Index points_in_stroke = 8;
+
+/// A column: x and y of these points of each stroke in order, in the frame of the whole writing: around their centre,
+/// with the same standard deviation each way, unless the writing is a line.
+using CharacterFeature = Eigen::VectorXf;
+
+/// Of the outlines of pen-downs, or of a character.
+CharacterFeature character_feature(std::span<const Outline> strokes);
+CharacterFeature character_feature(const Character& character);
+
+/// Root mean square of the distances of the points of two characters of as many strokes [em].
+double apart(const Eigen::Ref<const CharacterFeature>& one, const Eigen::Ref<const CharacterFeature>& other);
+
+/// The features of the characters of a set, in all their forms.
+class CharacterFeatures {
+ public:
+  explicit CharacterFeatures(const CharacterSet& set);
+
+  /// One of them, and how far it is from what was asked for.
+  struct Neighbour {
+    char32_t code = 0;
+    double distance = std::numeric_limits<double>::infinity();  ///< [em]
+    std::size_t strokes = 0, index = 0;                         ///< its place
+  };
+
+  std::size_t size() const { return size_; }
+  /// Every character of as many strokes, not sorted.
+  std::vector<Neighbour> neighbours(const CharacterFeature& feature) const;
+  /// The nearest one of as many strokes that is not `except`.
+  std::optional<Neighbour> nearest(const CharacterFeature& feature, char32_t except) const;
+  CharacterFeature feature(const Neighbour& neighbour) const;
+
+ private:
+  /// Characters of as many strokes.
+  struct Group {
+    std::vector<char32_t> codes;
+    Eigen::MatrixXf features;  ///< a column each
+  };
+
+  std::vector<Group> groups_;  ///< by the number of strokes
+  std::size_t size_ = 0;
+};
+
+}  // namespace calligraphy

@@ -1,0 +1,218 @@
+#include <calligraphy/judge/stroke_matching.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
+
+#include "judge/pens/require_paths.hpp"
+#include "judge/pens/writing_box.hpp"
+#include "judge/remarks/stroke_remarks.hpp"
+#include "other_character.hpp"
+#include "stroke_direction.hpp"
+#include "writing_order.hpp"
+
+namespace calligraphy {
+namespace {
+
+constexpr double hardly_dearer = 1.25;  // than the form of least price
+constexpr double unlike_all = 0.085;    // price of the best form for each pen-down, from which it is like none [em]
+
+/// Of the pen-downs that wrote nothing and follow each other up to this one, or from it on, one that runs forwards
+/// along a stroke.
+std::optional<std::size_t> correction_beside(const StrokeReading& reading, std::size_t path, std::size_t stroke) {
+  std::vector<bool> is_extra(reading.costs->paths(), false);
+  for (const ReadingStep& step : reading.steps) {
+    if (step.strokes == 0) is_extra[step.path] = true;
+  }
+  const auto corrects = [&](std::size_t other) {
+    const PairCost& pair = reading.costs->single(other, stroke);
+    return !reading.costs->is_tap(other) && !pair.backwards && pair.cost < left_over_cost;
+  };
+  for (std::size_t next = path + 1; next < is_extra.size() && is_extra[next]; ++next) {
+    if (corrects(next)) return next;
+  }
+  for (std::size_t before = path; before-- > 0 && is_extra[before];) {
+    if (corrects(before)) return before;
+  }
+  return std::nullopt;
+}
+
+/// A stroke written backwards and at once again forwards, or the other way round, was written forwards; the attempt
+/// backwards is extra.
+void prefer_corrections(StrokeReading& reading) {
+  for (ReadingStep& wrong : reading.steps) {
+    if (wrong.paths != 1 || wrong.strokes != 1) continue;
+    if (!reading.costs->single(wrong.path, wrong.stroke).backwards) continue;
+    const std::optional<std::size_t> correction = correction_beside(reading, wrong.path, wrong.stroke);
+    if (!correction) continue;
+    const auto extra = std::find_if(reading.steps.begin(), reading.steps.end(), [&](const ReadingStep& step) {
+      return step.strokes == 0 && step.path == *correction;
+    });
+    std::swap(extra->path, wrong.path);
+    wrong.cost = reading.costs->single(wrong.path, wrong.stroke).cost;
+  }
+}
+
+/// Of both parts where the stroke was broken.
+double distance_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
+  const StrokeCosts& costs = *reading.costs;
+  const Outline& line = strokes.run(step.stroke, step.strokes).line;
+  const Outline wanted = reading.pair(step).backwards ? reversed(line) : line;
+  return mean_distance(step.paths > 1 ? costs.placed_with_next(step.path) : costs.placed(step.path), wanted);
+}
+
+/// What a pen-down that wrote nothing attempted: the stroke that it resembles most, along or against which it runs.
+void find_attempt(DrawnStroke& drawn, std::size_t path, const StrokeReading& reading, const StrokeOutlines& strokes) {
+  double least = left_over_cost;
+  for (std::size_t stroke = 0; stroke < strokes.count() && !drawn.tap; ++stroke) {
+    const double cost = reading.costs->single(path, stroke).cost;
+    const WritingDirection direction = direction_of({path, 1, stroke, 1, cost}, reading, strokes).direction;
+    if (cost > least || direction == WritingDirection::neither) continue;
+    least = cost;
+    drawn.attempt = static_cast<int>(stroke);
+    drawn.direction = direction;
+  }
+}
+
+void require_valid(std::span<const Character> accepted) {
+  if (accepted.empty()) throw ValueError("no character to match with");
+  for (const Character& character : accepted) {
+    const std::vector<ValidationIssue> problems = validate(character);
+    if (!problems.empty()) {
+      throw ValueError("the character's stroke " + std::to_string(problems[0].stroke) + ": " + problems[0].what);
+    }
+    if (character.code != accepted.front().code) {
+      throw ValueError("accepted forms: expected those of one character, got " + encode_utf8(accepted.front().code) +
+                       " and " + encode_utf8(character.code));
+    }
+  }
+}
+
+/// The pen-downs read as one of the accepted forms; without remarks.
+struct Matched {
+  std::unique_ptr<const StrokeOutlines> outlines;  ///< to which the costs of the reading refer
+  StrokeReading reading;
+  MatchResult result;
+  double price = 0.0;        ///< of the reading [em]
+  std::size_t mistakes = 0;  ///< remarks of JudgeTolerances::normal(), whatever is told in the end
+};
+
+Matched match_one(const Character& character, std::span<const PenPath> paths, std::span<const PenPath> steady) {
+  Matched matched;
+  matched.outlines = std::make_unique<const StrokeOutlines>(character);
+  const StrokeOutlines& outlines = *matched.outlines;
+  StrokeReading& reading = matched.reading;
+  reading = read_strokes(character, outlines, steady);
+  prefer_corrections(reading);
+  MatchResult& match = matched.result;
+  match.fit = reading.costs->fit();
+  match.drawn.resize(steady.size());
+  for (const ReadingStep& step : reading.steps) {
+    for (std::size_t path = step.path; path < step.path + step.paths; ++path) {
+      DrawnStroke& drawn = match.drawn[path];
+      drawn.tap = reading.costs->is_tap(path);
+      if (step.strokes > 0) {
+        drawn.stroke = static_cast<int>(step.stroke);
+        drawn.stroke_count = static_cast<int>(step.strokes);
+        drawn.continues = path > step.path;
+        const StrokeDirection direction = direction_of(step, reading, outlines);
+        drawn.direction = direction.direction;
+        drawn.evidence = direction.evidence;
+        drawn.length = length_share(step, reading, outlines);
+        drawn.distance = distance_of(step, reading, outlines);
+      } else {
+        find_attempt(drawn, path, reading, outlines);
+      }
+    }
+  }
+  set_in_turn(match.drawn);
+  const WritingOrder order = find_order(match.drawn);
+  matched.price = reading.price(order.exchanges.size() + order.moved.size());
+  matched.mistakes = remarks_on(character, paths, match.drawn, match.fit,
+                                {reading.order_evidence, JudgeTolerances::normal().evidence})
+                         .size();
+  return matched;
+}
+
+}  // namespace
+
+const char* to_string(WritingDirection direction) noexcept {
+  switch (direction) {
+    case WritingDirection::forwards:
+      return "forwards";
+    case WritingDirection::backwards:
+      return "backwards";
+    case WritingDirection::neither:
+      return "neither";
+    case WritingDirection::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+const char* to_string(StrokeRemarkKind kind) noexcept {
+  constexpr std::array names = {"order",   "direction", "shape",     "joined",   "broken",
+                                "missing", "extra",     "character", "lookalike"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+int MatchResult::count(StrokeRemarkKind kind) const noexcept {
+  return static_cast<int>(std::count_if(remarks.begin(), remarks.end(),
+                                        [kind](const StrokeRemark& remark) { return remark.kind == kind; }));
+}
+
+MatchResult match_strokes(std::span<const Character> accepted, std::span<const PenPath> paths,
+                          const JudgeTolerances& tolerances, const CharacterIndex* others) {
+  require_valid(accepted);
+  require_paths(paths);
+  validate(tolerances);
+  const double spacing = pen_spacing * shortening(paths);
+  std::vector<PenPath> steady;
+  for (const PenPath& path : paths) steady.push_back(without_jitter(path, spacing));
+  std::vector<Matched> matched;
+  std::size_t best = 0;
+  std::optional<std::size_t> as_many;  // of those of as many strokes as pen-downs the best one
+  double least_price = std::numeric_limits<double>::infinity();
+  for (const Character& character : accepted) {
+    least_price = std::min(least_price, matched.emplace_back(match_one(character, paths, steady)).price);
+  }
+  // Of forms of about the same price the one with the fewest mistakes.
+  const auto rank = [&](const Matched& form) {
+    const bool is_dear = form.price > hardly_dearer * least_price;
+    return std::tuple(is_dear, is_dear ? 0 : form.mistakes, form.price);
+  };
+  for (std::size_t i = 0; i < accepted.size(); ++i) {
+    const Matched& next = matched[i];
+    if (rank(next) < rank(matched[best])) best = i;
+    if (next.outlines->count() != steady.size()) continue;
+    if (!as_many || rank(next) < rank(matched[*as_many])) as_many = i;
+  }
+  std::optional<OtherCharacter> other;
+  // Of another character a form of fewer or more strokes may be a little less unlike than one with which it can be
+  // compared; right writing with a mistake is like its own form.
+  const bool is_like_best = matched[best].price < unlike_all * static_cast<double>(steady.size());
+  if (others && as_many && (best == *as_many || !is_like_best)) {
+    other = other_character(others->features(), accepted[*as_many], steady, matched[*as_many].reading);
+    if (other) best = *as_many;
+  }
+  MatchResult result = std::move(matched[best].result);
+  result.accepted = static_cast<int>(best);
+  result.remarks = remarks_on(accepted[best], paths, result.drawn, result.fit,
+                              {matched[best].reading.order_evidence, tolerances.evidence}, other);
+  return result;
+}
+
+MatchResult match_strokes(const Character& character, std::span<const PenPath> paths,
+                          const JudgeTolerances& tolerances, const CharacterIndex* others) {
+  return match_strokes({&character, 1}, paths, tolerances, others);
+}
+
+}  // namespace calligraphy
