@@ -15,8 +15,8 @@ namespace {
 constexpr double max_stated_stiffness = 1e8;  ///< as good as no limit [N/m]
 constexpr double max_stated_power = 10.0;     ///< [W]
 
-/// A law of which nothing is known, or which leads the pen on, has a budget of energy where one can be kept.
-void put_on_account(EffectiveOptions& effective, const Capabilities& capabilities) {
+/// Sets an energy budget, where one can be kept, for a law of unknown stiffness or one that leads the pen on.
+void require_energy_budget(EffectiveOptions& effective, const Capabilities& capabilities) {
   EnergyOptions& energy = effective.options.energy;
   const GuidanceTraits& traits = effective.traits;
   if (energy.limited() || !(std::isnan(traits.stiffness) || traits.power > 0.0)) return;
@@ -64,7 +64,7 @@ std::unique_ptr<GuidanceLaw> guidance_law(EffectiveOptions& effective, const Cap
     effective.clipped.push_back(message.str());
     traits.name += ", scaled by " + number_text(std::round(1e4 * effective.law_share) / 1e4);
   }
-  put_on_account(effective, capabilities);
+  require_energy_budget(effective, capabilities);
   return law;
 }
 
@@ -87,7 +87,7 @@ EffectiveOptions effective_options(const RendererOptions& options, const std::ve
   if (clips) effective.clipped = clip_stiffness(effective.options, capabilities, mapping.scale);
   validate(effective.options, capabilities, mapping.scale);
   require_translations(capabilities, "the renderer");
-  require_exact_pen_taken(page, effective.options, capabilities, mapping);
+  require_exact_pen_accepted(page, effective.options, capabilities, mapping);
 
   // Where strokes attract more than others, guidance is limited there, not on the whole page.
   effective.guidance_limit = max_guidance_stiffness(effective.options, capabilities, mapping.scale);

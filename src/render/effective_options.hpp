@@ -16,12 +16,12 @@ namespace calligraphy {
 struct EffectiveOptions {
   RendererOptions options;
   std::vector<std::string> clipped;  ///< one line per value, with the reason
-  double guidance_limit = 0.0;       ///< of the stiffness of guidance, attraction factor included [N/m, page]
+  double guidance_limit = 0.0;       ///< maximum stiffness of guidance, attraction factor included [N/m, page]
   double max_attraction = 1.0;       ///< largest attraction factor on the page [1]
   GuidanceTraits traits;             ///< of the guidance law
-  bool has_own_law = false;          ///< and not a built-in one
-  double law_share = 1.0;            ///< of its spring that the device stands [1]
-  double law_stiffness = 0.0;        ///< by how much the force may follow the pen for it [N/m, page]
+  bool has_own_law = false;          ///< the law is not a built-in one
+  double law_share = 1.0;            ///< share of its spring that the device permits [1]
+  double law_stiffness = 0.0;        ///< at which the force may follow the pen because of the law [N/m, page]
 
   /// Stiffness of guidance where the attraction factor is this one [N/m, page].
   double guidance_stiffness(double attraction) const noexcept {
@@ -29,17 +29,16 @@ struct EffectiveOptions {
   }
 };
 
-/// That of the options, or the device's if they leave it at 0 [Hz]. @throws ValueError naming the one that is out of
-/// range
+/// The servo rate of the options, or the device's own if they leave it at 0 [Hz]. @throws ValueError naming the one
+/// that is out of range
 double servo_rate(const RendererOptions& options, const Capabilities& capabilities);
 
-/// Makes the guidance law, and adapts the options to what it says of itself.
-/// @throws ValueError where that is invalid, too stiff, or needs an account of energy that the device does not permit
+/// Makes the guidance law, and adapts the options to its traits.
+/// @throws ValueError when a trait is invalid or too stiff, or needs an energy account that the device does not permit
 std::unique_ptr<GuidanceLaw> guidance_law(EffectiveOptions& effective, const Capabilities& capabilities);
 
-/// Checks all that is asked for, and clips it if that is asked for too.
-/// @throws ValueError naming the character of the page, the mapping, the option or the property of the device that is
-/// invalid
+/// Checks everything that is requested, and clips it if that is requested too.
+/// @throws ValueError naming the character of the page, the mapping, the option or the device property that is invalid
 EffectiveOptions effective_options(const RendererOptions& options, const std::vector<PlacedCharacter>& page,
                                    const MotionMapping& mapping, const Capabilities& capabilities);
 

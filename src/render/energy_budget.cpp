@@ -10,7 +10,7 @@ namespace calligraphy {
 namespace {
 
 constexpr double max_brake = 0.1;          ///< with an exhausted budget [N]
-constexpr double least_share = 1e-9;       ///< of the reserve, from which an overdrawn budget begins to earn
+constexpr double least_share = 1e-9;       ///< of the reserve, with which an overdrawn budget starts to earn
 constexpr double max_brake_age = 0.01;     ///< an older velocity says less, and brakes less [s]
 constexpr double half_brake_speed = 0.01;  ///< of the pen, at which half of the brake acts [m/s]
 constexpr double brake_smoothing = 0.01;   ///< time over which the pen's velocity is averaged for the brake [s]
@@ -56,7 +56,7 @@ Eigen::Vector3d EnergyBudget::next(const Eigen::Vector3d& position, const Eigen:
   return std::isfinite(options_.budget) ? limited(wanted, viscous) : wanted;
 }
 
-/// What was spent beyond the budget is owed: the brake goes on with next to nothing, earns its reserve, and then repays.
+/// What was spent beyond the budget is owed: the brake starts from next to nothing, earns its reserve, and then repays.
 void EnergyBudget::spend(double energy) noexcept {
   remaining_ -= energy;
   const double least = least_share * reserve_;
@@ -71,8 +71,8 @@ void EnergyBudget::spend(double energy) noexcept {
 
 /// When the budget is nearly exhausted, a moving pen is braked lightly, so that it returns energy. Otherwise an
 /// exhausted budget would stay exhausted forever, because zero force does no work. The brake pays in advance too, from
-/// the reserve: behind late samples it may push a pen that has turned around. Its velocity is smooth, because what a
-/// force that changes with the steps of the encoder does is not seen, and so charged (sent()).
+/// the reserve: behind late samples it may push a pen that has turned around. Its velocity is smoothed: the work of a
+/// force that changes with the encoder steps is not seen, and so is charged (sent()).
 Eigen::Vector3d EnergyBudget::limited(const Eigen::Vector3d& force, const Eigen::Vector3d& viscous) noexcept {
   max_force_ = payable_force(remaining_ - reserve_);
   brakes_ = max_force_ < brake_;

@@ -10,21 +10,21 @@
 
 namespace calligraphy {
 
-/// What everything() permits, and a law of which nothing is known [J].
+/// Budget of everything(), and of a law about which nothing is known [J].
 inline constexpr double usual_energy_budget = 0.1;
 
-/// Whether an account of the energy can be kept: of a device of known mass, whose samples are not too old.
+/// Whether energy can be accounted for: the device's mass is known, and its samples are not too old.
 inline bool permits_account(const Capabilities& device) noexcept {
   return device.apparent_mass > 0.0 && device.sample_delay <= EnergyObserver::max_delay;
 }
 
-/// How much energy may be given, and what a budget must know of the device, the hand and the loop.
+/// How much energy may be given, and what a budget must know about the device, the hand and the loop.
 struct EnergyBudgetOptions {
   /// Maximum net energy delivered to the hand since the start. Infinite: no limit [J].
   double budget = std::numeric_limits<double>::infinity();
-  double mass = std::numeric_limits<double>::infinity();  ///< of the device, the lightest pen [kg]
-  double encoder_step = 0.0;                              ///< of a position along each axis [m]
-  /// The force may follow what the encoder hides: the most that this gives unseen is charged, always.
+  double mass = std::numeric_limits<double>::infinity();  ///< of the device alone, the lightest pen [kg]
+  double encoder_step = 0.0;                              ///< resolution of a position along each axis [m]
+  /// Always charge the most that the force may give unseen by following motion that the encoder hides.
   bool charges_encoder = false;
   EnergyObserverOptions observer = {};  ///< which accounts for the energy
 };
@@ -33,20 +33,19 @@ struct EnergyBudgetOptions {
 ///
 /// With E of the budget left, a force is limited to what cannot use up E before the next sample is known:
 /// F v t + (F t)^2 / (2 m) <= E, with v = hand_speed, or the pen's own speed if that is higher, and t = max_gap plus a
-/// period; for the path of a pen that the hand moves at v while the force accelerates it for that time. Forces whose
-/// work no sample has shown yet are charged likewise. Energy that the hand returns is added to E, up to the budget.
-/// Where less than 0.1 N is left by this rule, that is a brake against the motion (of less with samples older than 10
-/// ms), so that the pen returns energy. It pays from a reserve by the same rule, so that it fades with the reserve
+/// period: the path of a pen that the hand moves at v while the force accelerates it for that time. Forces whose work
+/// no sample has shown yet are charged likewise. Energy that the hand returns is added to E, up to the budget. Where
+/// this rule leaves less than 0.1 N, the force becomes a brake against the motion (a weaker one with samples older than
+/// 10 ms), so that the pen returns energy. The brake is paid from a reserve by the same rule: it fades with the reserve
 /// where late samples make it push, and grows with it where it brakes. What a violation of the conditions below
-/// overdraws is repaid before more is given. The true net energy never exceeds the budget, whatever the field, as long
-/// as
-/// - a downstream stage does not lengthen a force, and reports the one that it changes (acted());
+/// overdraws is repaid before more is given. The true net energy never exceeds the budget, whatever the field, while
+/// - no downstream stage lengthens a force, and one that changes a force reports it (acted());
 /// - no hand moves the pen faster than `hand_speed`, and no gap is longer than `max_gap`: a longer one of t seconds may
 ///   deliver |F| v t, which is repaid before more is given;
 /// - each sample is `delay` ticks old, or known to be lost, or more than 10 m/s away (then the pen is elsewhere).
-/// Not observed is, with an encoder of resolution D, at most D / 2 times the sum of all changes of the force, and
-/// within a period in which the force changes, what a pen of acceleration a moves off a straight line: at most a T^2 /
-/// 8 times that sum.
+/// What stays unobserved is, with an encoder of resolution D, at most D / 2 times the sum of all changes of the force,
+/// and, within a period in which the force changes, what a pen of acceleration a moves off a straight line: at most
+/// a T^2 / 8 times that sum.
 class EnergyBudget {
  public:
   EnergyBudget() = default;
@@ -54,10 +53,10 @@ class EnergyBudget {
   EnergyBudget(const EnergyBudgetOptions& options, double period);
 
   /// Reports, before next(), the force that acts at this sample [N], and the ticks that have passed since the last
-  /// call: more than one when the loop paused. For the first `settling` [s] of them the force may have been another
-  /// one. In one tick it was then the one of the last call, so the work is shared by time. Over a pause it may have
-  /// been any between this and those before, for `max_gap` at least. Without a call it was the force of sent(), for one
-  /// tick.
+  /// call: more than one when the loop paused. For the first `settling` [s] of them another force may have acted. In a
+  /// single tick, that was the force of the last call, and the work is divided in proportion to time. Over a pause it
+  /// may have been any force between this one and those before, for at least `max_gap`. Without a call it was the force
+  /// of sent(), for one tick.
   void acted(const Eigen::Vector3d& force, int ticks, double settling = 0.0) noexcept {
     observer_.acted(force, ticks, settling);
   }
@@ -69,7 +68,7 @@ class EnergyBudget {
                        const Eigen::Vector3d& viscous = Eigen::Vector3d::Zero()) noexcept;
   /// Reports the force after all limits, held from now on. Call it once after every next().
   void sent(const Eigen::Vector3d& force) noexcept;
-  /// Refills the budget by what may be given beside it [J].
+  /// Refills the budget by energy that may be given in addition to it [J].
   void earn(double energy) noexcept { spend(-energy); }
   /// Resets: no force sent, no energy delivered.
   void restart() noexcept;
@@ -88,7 +87,7 @@ class EnergyBudget {
   double period_ = 0.001;  ///< [s]
   EnergyObserver observer_;
   double smoothing_ = 1.0;                               ///< share of a period in the average of the velocity
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< of the pen, as the brake takes it [m/s]
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< of the pen, smoothed for the brake [m/s]
   bool brakes_ = false;
   double brake_ = 0.1;    ///< with an exhausted budget [N]
   double reserve_ = 0.0;  ///< for the brake [J]

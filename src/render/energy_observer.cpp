@@ -12,7 +12,7 @@ namespace {
 /// A sample that implies a faster pen is not a motion: the pen is elsewhere [m/s].
 constexpr double max_pen_speed = 10.0;
 
-/// A device that renders a force so nearly has held it: it rounds to its resolution [N].
+/// A device that renders a force this closely has held it: devices round to their resolution [N].
 constexpr double force_resolution = 0.01;
 
 }  // namespace
@@ -42,11 +42,11 @@ double EnergyObserver::speed() const noexcept { return std::max(options_.hand_sp
   double change = norm(Eigen::Vector3d(force - before));
   const Eigen::Vector3d earlier = std::exchange(at_last_sample_, force);
   if (settled > 0.0) {
-    // What was sent came late, or never came: until then the force was the one before.
+    // The force sent arrived late, or never: until then the previous one acted.
     change = std::max({change, norm(Eigen::Vector3d(earlier - before)), norm(Eigen::Vector3d(force - earlier))});
     if (norm(earlier) > norm(before)) before = earlier;
   }
-  // A force that was reduced meanwhile has been between the two, at a time that is not known.
+  // A force that was reduced meanwhile lay between the two, at an unknown time.
   const double max_unsure = std::max(std::ceil(options_.max_gap / period_), settled);
   const int unsure =
       change <= force_resolution / options_.scale ? 0 : static_cast<int>(std::min(max_unsure, 1.0 * missed));
@@ -62,7 +62,7 @@ double EnergyObserver::speed() const noexcept { return std::max(options_.hand_sp
   sent_[newest_] = force;
 }
 
-/// `count` periods in which `force` is held pass like that, in bounded time: once it fills the ring, all are alike.
+/// Passes `count` such periods while `force` is held, in bounded time: once it fills the ring, all are alike.
 void EnergyObserver::pass_unseen(const Eigen::Vector3d& force, int count, double change) noexcept {
   const int first = std::min(count, static_cast<int>(sent_.size()));
   for (int i = 0; i < first; ++i) {
@@ -76,7 +76,7 @@ void EnergyObserver::pass_unseen(const Eigen::Vector3d& force, int count, double
   gap_.change += rest * (norm(Eigen::Vector3d(force - gap_.held)) + change);
 }
 
-/// A period passes at whose end the position is not known; the force was this one up to a `change` [N].
+/// Passes a period that ends at an unknown position; the force at work is known up to a `change` [N].
 void EnergyObserver::pass_unseen(double change) noexcept {
   velocity_.setZero();
   if (!has_position_) return;
@@ -107,16 +107,16 @@ ObservedStep EnergyObserver::move(const Eigen::Vector3d& position) noexcept {
   return step;
 }
 
-/// Or after a step that no pen takes.
+/// Also after a step that no pen could take.
 [[gnu::noinline]] void EnergyObserver::move_after_gap(ObservedStep& step) noexcept {
   const double way = norm(step.way), seconds = static_cast<double>(gap_.periods + 1) * period_;
   const bool jumped = way > max_pen_speed * options_.scale * seconds;
   if (!has_position_) {
     // Without a first position nothing is known of the work: the force was zero then, or is charged from now on.
   } else if (jumped) {
-    step.energy = (gap_.force + norm(step.force)) * speed() * period_;  // did not move there
+    step.energy = (gap_.force + norm(step.force)) * speed() * period_;  // the pen did not move there
   } else {
-    // Exact if the force was held; otherwise it is unknown how far the pen moved under which.
+    // Exact if the force was held; otherwise it is unknown how far the pen moved under which force.
     const double max_speed = std::max(speed(), way / seconds);
     const double change = gap_.change + norm(Eigen::Vector3d(step.force - gap_.held));
     step.energy = std::min(dot(gap_.held, step.way) + change * max_speed * period_,

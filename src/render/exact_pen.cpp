@@ -13,8 +13,8 @@
 namespace calligraphy {
 namespace {
 
-/// Samples, at most [em].
-constexpr double way_between = 0.005;
+/// Maximum distance between samples [em].
+constexpr double max_spacing = 0.005;
 
 bool is_preset(const StrokeTolerances& tolerances) {
   const std::array presets = {StrokeTolerances::lenient(), StrokeTolerances::normal(), StrokeTolerances::strict()};
@@ -32,7 +32,7 @@ TickEvent draw(StrokeSequencer& sequencer, const Stroke& stroke, const Placement
   Point tip = placement.to_page(stroke.control_points.front());
   move(tip, true);
   for (const StrokeElement& element : place_elements(stroke, placement)) {
-    const int count = static_cast<int>(std::ceil(element.length() / (way_between * placement.em)));
+    const int count = static_cast<int>(std::ceil(element.length() / (max_spacing * placement.em)));
     for (int i = 1; i <= count; ++i) {
       tip = element.point(element.parameter_at(element.length() * i / count));
       move(tip, true);
@@ -44,8 +44,8 @@ TickEvent draw(StrokeSequencer& sequencer, const Stroke& stroke, const Placement
 
 }  // namespace
 
-void require_exact_pen_taken(const std::vector<PlacedCharacter>& page, const RendererOptions& options,
-                             const Capabilities& capabilities, const MotionMapping& mapping) {
+void require_exact_pen_accepted(const std::vector<PlacedCharacter>& page, const RendererOptions& options,
+                                const Capabilities& capabilities, const MotionMapping& mapping) {
   const StrokeTolerances& tolerances = options.tolerances;
   if (is_preset(tolerances) || tolerances.coverage == 0.0) return;
   for (std::size_t i = 0; i < page.size(); ++i) {

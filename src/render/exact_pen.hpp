@@ -1,4 +1,4 @@
-// A pen that draws the strokes of a page exactly, to try whether tolerances take it.
+// Checks that the tolerances accept a pen that draws the strokes of a page exactly.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace calligraphy {
 
-/// Draws each stroke, unless the tolerances are a preset, which is known to take them, or leave the end of a stroke to
-/// its feature planes. All that is given must be valid. Takes about 0.3 ms a character.
+/// Draws each stroke exactly, unless the tolerances are a preset, which is known to accept it, or leave the end of a
+/// stroke to its feature planes. All arguments must be valid. Takes about 0.3 ms per character.
 /// @throws ValueError naming the first stroke that is not begun, or not finished
-void require_exact_pen_taken(const std::vector<PlacedCharacter>& page, const RendererOptions& options,
-                             const Capabilities& capabilities, const MotionMapping& mapping);
+void require_exact_pen_accepted(const std::vector<PlacedCharacter>& page, const RendererOptions& options,
+                                const Capabilities& capabilities, const MotionMapping& mapping);
 
 }  // namespace calligraphy

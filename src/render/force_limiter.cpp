@@ -19,13 +19,13 @@ Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen:
   if (length > reach) force.head<2>() = previous.head<2>() + change * (reach / length);
   const double normal_reach = normal_step + allowance.normal;
   force.z() = previous.z() + std::clamp(force.z() - previous.z(), -normal_reach, normal_reach);
-  // A projection onto a ball: it lengthens no step from a force within it.
+  // This projects onto a ball, so it lengthens no step from a force inside it.
   return shortened(force, most);
 }
 
 [[gnu::noinline]] Eigen::Vector3d ForceLimiter::release(const Eigen::Vector3d& previous) const noexcept {
   const double size = norm(previous);
-  // Where only one is unlimited, the other one limits.
+  // If only one step is unlimited, the other one limits.
   const auto finite = [](double step) { return step < no_limit ? step : 0.0; };
   const double limited = Eigen::Vector2d(finite(in_plane_step), finite(normal_step)).norm();
   const double step = limited > 0.0 ? limited : no_limit;

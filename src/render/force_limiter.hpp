@@ -7,7 +7,7 @@
 
 namespace calligraphy {
 
-/// How far the force may change in a tick, on account of the motion of the pen, beyond the steps of the limiter [N].
+/// How far the motion of the pen lets the force change in a tick, beyond the steps of the limiter [N].
 struct ForceAllowance {
   double in_plane = 0.0;
   double normal = 0.0;
@@ -30,7 +30,7 @@ struct ForceLimiter {
   double normal_step = 0.0;    ///< likewise [N per tick]
   double peak = 0.0;           ///< [N]
 
-  /// Whether next() is `target` itself, whatever the allowance: the usual case, without a square root.
+  /// Whether next() returns `target` itself, whatever the allowance: the usual case, decided without a square root.
   bool reaches(const Eigen::Vector3d& previous, const Eigen::Vector3d& target, double max_length) const noexcept {
     const double most = peak < max_length ? peak : max_length;
     const double x = target.x() - previous.x(), y = target.y() - previous.y(), z = target.z() - previous.z();
@@ -39,13 +39,13 @@ struct ForceLimiter {
            z >= -normal_step;
   }
 
-  /// Of a pen at rest [N].
+  /// Maximum change per tick on a pen at rest [N].
   double max_step() const noexcept;
   /// The next force from `previous` towards `target`, at most `max_length` long [N, page axes]. `target` must be
   /// finite.
   Eigen::Vector3d next(const Eigen::Vector3d& previous, const Eigen::Vector3d& target,
                        const ForceAllowance& allowance = {}, double max_length = no_limit) const noexcept;
-  /// The next force from `previous` straight to zero, by the steps per tick that are limited: for when the device cannot be trusted.
+  /// The next force from `previous` straight to zero at the limited rate, for a device that cannot be trusted.
   Eigen::Vector3d release(const Eigen::Vector3d& previous) const noexcept;
 };
 

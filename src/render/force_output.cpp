@@ -10,10 +10,10 @@
 namespace calligraphy {
 namespace {
 
-/// The force follows a pen at once up to this speed, and this change of it in a tick [m/s].
+/// The force follows a pen without delay up to this speed and this change of speed per tick [m/s].
 constexpr double max_followed_speed = 1.0, max_followed_change = 0.3;
 
-/// In page axes, where forces are 1 / scale times those of the device, masses and damping 1 / scale^2 times
+/// The budget in page axes, where forces are 1 / scale times those of the device, masses and damping 1 / scale^2 times
 /// (MotionMapping).
 EnergyBudget energy_budget(const RendererOptions& options, const Capabilities& capabilities, double scale,
                            bool has_own_law) {
@@ -68,7 +68,7 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
   force.head<2>() = guidance.total + paper.friction;
   force.z() = paper.normal + guidance.normal;
   if (pen.holds_force) force = sent_.page;
-  // Where nothing was sent, nothing is held, the brake of an exhausted budget included.
+  // If no force was sent, none is held, not even the brake of an exhausted budget.
   const bool is_trusted = pen.status == TickStatus::ok || (pen.holds_force && norm(force) > 0.0);
   sent_.viscous.head<2>() = paper.viscous.head<2>() + guidance.viscous;
   sent_.viscous.z() = paper.viscous.z();
@@ -102,7 +102,7 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
   return sent_;
 }
 
-/// The account of energy sees the force at work: behind a servo it may be less than the one sent.
+/// The energy account sees the force at work: behind a servo it may be less than the one sent.
 void ForceOutput::account(const PenState& pen) noexcept {
   const bool is_as_sent = pen.force == sent_.device || !is_finite(pen.force);
   energy_.acted(is_as_sent ? sent_.page : mapping_.force_to_page(pen.force), pen.ticks, pen.settling);
@@ -119,7 +119,7 @@ Eigen::Vector3d ForceOutput::affordable(const PenState& pen, const Eigen::Vector
   return force;
 }
 
-/// What springs and dampers change because the pen has moved since the sample before.
+/// Change of the springs and dampers due to the motion of the pen since the previous sample.
 ForceAllowance ForceOutput::allowance(const PenState& pen) const noexcept {
   const Eigen::Vector3d motion = pen.motion(), change = pen.velocity_change();
   const double way = std::abs(motion.z());
@@ -129,7 +129,7 @@ ForceAllowance ForceOutput::allowance(const PenState& pen) const noexcept {
                    {change.head<2>().norm(), std::abs(change.z()) + onset * std::abs(pen.velocity.z())});
 }
 
-/// For a motion by `way` [m] and a change of the velocity [m/s], each in the plane and along the normal.
+/// Change due to a motion by `way` [m] and a change of the velocity [m/s], each in the plane and along the normal.
 ForceAllowance ForceOutput::allowance(Point way, Point velocity_change) const noexcept {
   way = way.cwiseMin(max_followed_speed * mapping_.scale * period_);
   velocity_change = velocity_change.cwiseMin(max_followed_change * mapping_.scale);

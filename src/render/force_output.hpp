@@ -1,4 +1,4 @@
-// The last stage: what a device gets of the forces that the page wants, and what energy that gives the hand.
+// The last stage: how much of the page's forces the device is sent, and what energy that gives the hand.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,25 +19,25 @@ namespace calligraphy {
 struct SentForce {
   Eigen::Vector3d page = Eigen::Vector3d::Zero();     ///< page axes [N]
   Eigen::Vector3d device = Eigen::Vector3d::Zero();   ///< device axes [N]
-  Point guidance = Point::Zero();                     ///< `page` less friction as wanted [N]
+  Point guidance = Point::Zero();                     ///< `page` in the plane, less the friction that was wanted [N]
   Eigen::Vector3d viscous = Eigen::Vector3d::Zero();  ///< as HapticTick::viscous [N, page]
   double energy_given = 0.0;                          ///< to the hand, as observed; 0 without an account of it [J]
   double heat = 0.0;                                  ///< of the motors; 0 without thermal budget [1]
-  bool is_warm = false;                               ///< the heat leaves less than was wanted
+  bool is_warm = false;                               ///< heat permits less force than was wanted
 };
 
-/// Limits the forces by the energy budget, by peak and heat, which keep the direction, and by the rate.
-/// The energy is that of the force at work. Never allocates.
+/// Limits the forces by energy budget, by peak and heat, which preserve the direction, and by rate. The energy is that
+/// of the force at work. Never allocates.
 class ForceOutput {
  public:
-  /// `max_guidance_stiffness`: by how much it follows the pen at most [N/m]. `has_own_law`: guidance is
-  /// that of an author, of which nothing is certain.
+  /// `max_guidance_stiffness`: maximum stiffness at which guidance follows the pen [N/m]. `has_own_law`: the guidance
+  /// law is not a built-in one, so nothing about it is certain.
   /// @throws ValueError unless the device has a peak force
   ForceOutput(const RendererOptions& options, const Capabilities& capabilities, const MotionMapping& mapping,
               double max_guidance_stiffness, bool has_own_law);
 
-  /// Sends what may be sent of the forces. While samples are stale for a moment, that is what was sent before; for a
-  /// device that cannot be trusted, nothing: the force goes to zero by the rate.
+  /// Limits the forces to what may be sent. While samples are briefly stale, the last force is held; if the device
+  /// cannot be trusted, the force goes to zero at the limited rate.
   const SentForce& update(const PenState& pen, const GuidanceForce& guidance, const PaperForce& paper) noexcept;
 
   void restart() noexcept;
@@ -47,7 +47,7 @@ class ForceOutput {
   double max_step() const noexcept;
 
  private:
-  /// Of all springs and dampers that act in one direction.
+  /// Sum of all springs and dampers that act in one direction.
   struct Impedance {
     double stiffness;  ///< [N/m]
     double damping;    ///< [N s/m]
@@ -66,7 +66,7 @@ class ForceOutput {
   ForceLimiter limiter_;
   bool observes_energy_;
   EnergyBudget energy_;
-  double time_ = 0.0;      ///< of the sample before [s]
+  double time_ = 0.0;      ///< of the previous sample [s]
   ThermalBudget thermal_;  ///< peak 0: disabled
   SentForce sent_;
 };

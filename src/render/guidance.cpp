@@ -56,14 +56,14 @@ const GuidanceForce& Guidance::update(PenState& pen, const WriterState& writer, 
   force_.assistance = assistance_.factor();
   pull(pen, writer);
   force_.total = faded(pen, writer, sent);
-  if (pen.status != TickStatus::ok) {  // the law has failed: with the next force guidance sets in anew
+  if (pen.status != TickStatus::ok) {  // the law has failed: its next force fades in again
     release();
     fade_ = 0.0;
   }
   return force_;
 }
 
-/// The three terms, and what the law adds to the paper's.
+/// Computes the three terms, and the law's addition to the normal force of the paper.
 void Guidance::pull(PenState& pen, const WriterState& writer) noexcept {
   constexpr TickEvent attempts = TickEvent::contact | TickEvent::stroke_finished | TickEvent::stroke_abandoned;
   force_.attraction = force_.wrong_way = force_.viscous = Point::Zero();
@@ -75,7 +75,7 @@ void Guidance::pull(PenState& pen, const WriterState& writer) noexcept {
   input_.tip = pen.tip.head<2>();
   input_.velocity = pen.velocity.head<2>();
   input_.writing = writer.state == InteractionState::writing;
-  double resistance = 0.0;  // to writing backwards, in the stiffness and the damping
+  double resistance = 0.0;  // to writing backwards, in stiffness and damping
   if (input_.writing ? writer.guided : writer.rests) resistance = contact.weight;
   const double slack = options.wrong_way_slack * writer.em;
   const bool resisted = resistance > 0.0 && contact.backwards > slack;
@@ -98,7 +98,7 @@ void Guidance::pull(PenState& pen, const WriterState& writer) noexcept {
   force_.power = effective_.traits.power;
 }
 
-/// Tells the law where it leads.
+/// Sets where guidance leads.
 void Guidance::lead(const WriterState& writer) noexcept {
   const StrokeContact& contact = writer.contact;
   if (input_.writing) {
@@ -118,7 +118,7 @@ void Guidance::lead(const WriterState& writer) noexcept {
   input_.share = effective_.traits.lets_go ? force_.assistance * input_.weight : force_.assistance;
 }
 
-/// What not every law asks for.
+/// Sets the inputs that not every law reads.
 [[gnu::noinline]] void Guidance::show_stroke(const PenState& pen, const WriterState& writer) noexcept {
   StrokeContact contact = writer.contact;
   if (!input_.writing) {
@@ -139,7 +139,7 @@ void Guidance::lead(const WriterState& writer) noexcept {
   input_.em = writer.em;
 }
 
-/// A law that throws, or answers with what is no force, is none.
+/// A law that throws, or returns a force that is not finite, gives no force.
 GuidanceTerms Guidance::ask(PenState& pen, const WriterState& writer) noexcept {
   try {
     if (!begun_) law_->begin(*writer.geometry);
@@ -155,9 +155,9 @@ GuidanceTerms Guidance::ask(PenState& pen, const WriterState& writer) noexcept {
   return {};
 }
 
-/// Until the first stretch has shown its direction, guidance acts across that direction only, so that it does not hide
-/// it; with GuidanceOptions::to_start also along it, though not up to the start itself, which the pen is about to
-/// leave, nor from the stroke, along which a pen that moves backwards is resisted.
+/// Until the first stretch has shown its direction, guidance acts only across the direction of the stroke, so as not to
+/// mask it. With GuidanceOptions::to_start it also acts along it, but not as far as the start itself, which the pen is
+/// about to leave, nor on a pen that rests on the stroke, where moving backwards is resisted.
 Point Guidance::way_to_start(const WriterState& writer) const noexcept {
   const GuidanceOptions& options = effective_.options.guidance;
   const double along = writer.to_start.dot(writer.direction);
@@ -168,7 +168,7 @@ Point Guidance::way_to_start(const WriterState& writer) const noexcept {
 }
 
 /// Where the closest point jumps, at the start of a stroke and at a feature point, a spring that appears at once would
-/// throw the pen, and so would one that vanishes at once where guidance ends: the old one is withdrawn in time while
+/// throw the pen, and so would one that vanishes at once where guidance ends: the old one is withdrawn gradually while
 /// the new one sets in.
 Point Guidance::faded(const PenState& pen, const WriterState& writer, const Point& sent) noexcept {
   constexpr TickEvent jumps = TickEvent::stroke_started | TickEvent::feature_passed | TickEvent::contact;

@@ -14,13 +14,13 @@
 
 namespace calligraphy {
 
-/// In the paper plane, except for `normal` [N, page].
+/// The forces of guidance, in the paper plane except for `normal` [N, page].
 struct GuidanceForce {
   Point attraction = Point::Zero();  ///< the law's spring, assistance included, before the fade
   Point wrong_way = Point::Zero();   ///< Fig. 4, before the fade
   Point viscous = Point::Zero();     ///< damping, before the fade
-  Point total = Point::Zero();       ///< of the three as they fade in, and of what is still being withdrawn
-  double normal = 0.0;               ///< of the law, as it fades in
+  Point total = Point::Zero();       ///< sum of the three as they fade in, and of what is still being withdrawn
+  double normal = 0.0;               ///< normal force of the law, as it fades in
   double assistance = 1.0;           ///< factor from the assist policy [1]
   double power = 0.0;                ///< with which the law may lead the pen on in this tick [W]
 };
@@ -30,13 +30,13 @@ class Guidance {
  public:
   Guidance(const EffectiveOptions& effective, std::unique_ptr<GuidanceLaw> law);
 
-  /// No force where the device cannot be trusted, the last one while it is held; nor where the law cannot, which the
-  /// status of the pen then says. `sent`: what the device got of the total of the tick before [N, page].
+  /// Computes the force of this tick: none if the device or the law cannot be trusted, the last one while it is held. A
+  /// law that fails sets the status of the pen. `sent`: how much of the previous total the device was sent [N, page].
   const GuidanceForce& update(PenState& pen, const WriterState& writer, const Point& sent) noexcept;
 
   void restart() noexcept;
 
-  /// What the law threw first since the restart; null: nothing.
+  /// First exception of the law since the restart; null: none.
   const std::exception_ptr& error() const noexcept { return error_; }
 
  private:
@@ -54,14 +54,14 @@ class Guidance {
   Assistance assistance_;
   std::unique_ptr<GuidanceLaw> law_;
   GuidanceInput input_;
-  bool begun_ = false;  ///< the law knows of this attempt
+  bool begun_ = false;  ///< the law has begun this attempt
   std::exception_ptr error_;
-  bool guided_ = false;      ///< in the tick before
-  ReleasedSpring released_;  ///< what guided before it last jumped, took hold or let go
+  bool guided_ = false;      ///< in the previous tick
+  ReleasedSpring released_;  ///< the guidance before it last jumped, took hold or let go
   double fade_ = 0.0;        ///< progress of the fade-in since then, 0 to 1
-  double normal_before_ = 0.0;    ///< of the law, in the tick before [N]
-  double released_normal_ = 0.0;  ///< likewise, of the law's normal force [N]
-  double normal_left_ = 0.0;      ///< of it, before its smooth step: 1 to 0
+  double normal_before_ = 0.0;    ///< normal force of the law in the previous tick [N]
+  double released_normal_ = 0.0;  ///< the law's normal force at that time [N]
+  double normal_left_ = 0.0;      ///< share of it that is left, before the smooth step: 1 to 0
   double normal_step_ = 0.0;      ///< per tick
   GuidanceForce force_;
 };

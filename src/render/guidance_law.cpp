@@ -30,7 +30,7 @@ Point damped_part(const Point& velocity, const Point& way, const Point& tangent)
   return -input.damping * (guided + unguided_damping * (input.velocity - guided));
 }
 
-/// A spring is damped as much weaker as the stroke attracts less.
+/// The spring of a stroke that attracts less is damped less in proportion.
 double damped_share(const GuidanceInput& input, double share) noexcept {
   return input.attraction < 1.0 ? share * input.attraction : share;
 }
@@ -65,7 +65,7 @@ class SaturatingGuidance final : public GuidanceLaw {
     const Point saturated = saturated_force(spring, limit_);
     const double linear = spring.norm();
     double share = damped_share(input, input.share);
-    // Across the stroke the stiffness falls with the square of what this falls by.
+    // Across the stroke the stiffness falls by the square of this factor.
     if (linear > 0.0) share *= std::sqrt(saturated.norm() / linear);
     return {saturated, damper_of(input, share)};
   }

@@ -16,7 +16,7 @@ const HapticTick nothing;
 
 }  // namespace
 
-/// In the order of a tick.
+/// The stages, in the order of a tick.
 struct HapticRenderer::Stages {
   Stages(std::vector<PlacedCharacter> page, const MotionMapping& to_page, const Capabilities& capabilities,
          const RendererOptions& options)
@@ -29,8 +29,8 @@ struct HapticRenderer::Stages {
         output(effective.options, capabilities, mapping, effective.law_stiffness,
                effective.has_own_law) {}
 
-  void report(const PenState& pen, const WriterState& writer, const GuidanceForce& led, const PaperForce& pressed,
-              const SentForce& sent) noexcept;
+  void report(const PenState& pen, const WriterState& writer, const GuidanceForce& guidance_force,
+              const PaperForce& paper_force, const SentForce& sent) noexcept;
 
   MotionMapping mapping;
   EffectiveOptions effective;
@@ -59,17 +59,17 @@ void HapticRenderer::restart() noexcept {
   stages_->tick = {};
 }
 
-/// Compiled into one piece with all that it calls in this component, except for what happens once in a stroke
-/// (gnu::noinline): calls of small functions took a fifth of a tick.
+/// Inlines everything that it calls in this component, except for what happens once per stroke (gnu::noinline): calls
+/// of small functions took a fifth of a tick.
 [[gnu::flatten]] const HapticTick& HapticRenderer::update(const DeviceState& sample) noexcept {
   if (!stages_) return nothing;
   auto& [mapping, effective, guidance, sensor, sequencer, paper, output, tick] = *stages_;
   PenState& pen = sensor.update(sample, output.last().device);
   const WriterState& writer = sequencer.update(pen);
-  const GuidanceForce& led = guidance.update(pen, writer, output.last().guidance);
-  const PaperForce& pressed = paper.update(pen, writer, output.last().page.z());
-  const SentForce& sent = output.update(pen, led, pressed);
-  stages_->report(pen, writer, led, pressed, sent);
+  const GuidanceForce& guidance_force = guidance.update(pen, writer, output.last().guidance);
+  const PaperForce& paper_force = paper.update(pen, writer, output.last().page.z());
+  const SentForce& sent = output.update(pen, guidance_force, paper_force);
+  stages_->report(pen, writer, guidance_force, paper_force, sent);
   return tick;
 }
 
@@ -85,8 +85,8 @@ double HapticRenderer::max_force_step() const noexcept {
   return stages_->output.max_step() * stages_->mapping.scale;
 }
 
-void HapticRenderer::Stages::report(const PenState& pen, const WriterState& writer, const GuidanceForce& led,
-                                    const PaperForce& pressed, const SentForce& sent) noexcept {
+void HapticRenderer::Stages::report(const PenState& pen, const WriterState& writer, const GuidanceForce& guidance_force,
+                                    const PaperForce& paper_force, const SentForce& sent) noexcept {
   tick.time = pen.time;
   tick.status = pen.status;
   tick.state = writer.state;
@@ -101,12 +101,12 @@ void HapticRenderer::Stages::report(const PenState& pen, const WriterState& writ
   tick.hint = hint_in(writer.phase);
   if (sent.is_warm && tick.hint == WritingHint::none) tick.hint = WritingHint::warm_motors;
   tick.to_start = writer.to_start;
-  tick.attraction = led.attraction;
-  tick.wrong_way = led.wrong_way;
-  tick.friction = pressed.friction;
-  tick.normal = pressed.normal + led.normal;
+  tick.attraction = guidance_force.attraction;
+  tick.wrong_way = guidance_force.wrong_way;
+  tick.friction = paper_force.friction;
+  tick.normal = paper_force.normal + guidance_force.normal;
   tick.viscous = sent.viscous;
-  tick.assistance = led.assistance;
+  tick.assistance = guidance_force.assistance;
   tick.energy_given = sent.energy_given;
   tick.heat = sent.heat;
   tick.page_force = sent.page;

@@ -39,8 +39,8 @@ const PaperForce& Paper::update(const PenState& pen, const WriterState& writer, 
   return force_;
 }
 
-/// Eq. (9) and a damper, both of which set in over the first depth: the damper, because a touch would be a step; the
-/// spring, so that it is never stiffer than the damper at that depth is good for. Paper does not pull, however fast the
+/// Eq. (9) and a damper, both of which set in over the onset depth: the damper, because a touch would otherwise be a
+/// step; the spring, so that it is never too stiff for the damper at that depth. Paper does not pull, however fast the
 /// pen is lifted.
 void Paper::press(const PenState& pen) noexcept {
   const double depth = pen.penetration, onset = options_.onset;

@@ -11,7 +11,7 @@
 
 namespace calligraphy {
 
-/// [N, page].
+/// The forces of the paper on the pen [N, page].
 struct PaperForce {
   double normal = 0.0;                                ///< eq. (9), damping included
   Point friction = Point::Zero();                     ///< damping included
@@ -23,11 +23,11 @@ class Paper {
  public:
   explicit Paper(const RendererOptions& options);
 
-  /// No force where the device cannot be trusted, the last one while it is held. `pressure`: what the device got of the
-  /// normal force of the tick before [N].
+  /// Computes the force of this tick: none if the device cannot be trusted, the last one while it is held. `pressure`:
+  /// normal force that was sent in the previous tick [N].
   const PaperForce& update(const PenState& pen, const WriterState& writer, double pressure) noexcept;
 
-  /// No force, and nothing that rubs.
+  /// Drops the force and the anchor of the friction.
   void release() noexcept;
 
  private:
@@ -39,7 +39,7 @@ class Paper {
   double period_;       ///< [s]
   double rate_filter_;  ///< coefficient of the low-pass on the rate of the friction spring
   PaperFriction friction_;
-  Point spring_ = Point::Zero();       ///< of friction, in the tick before [N, page]
+  Point spring_ = Point::Zero();       ///< of friction, in the previous tick [N, page]
   Point spring_rate_ = Point::Zero();  ///< its filtered change [N/s, page]
   PaperForce force_;
 };

@@ -8,24 +8,24 @@
 namespace calligraphy {
 namespace {
 
-/// Of a sensor that states none: a device is no finer in a hand [m].
+/// Minimum encoder step, also for a sensor that states none: in a hand no device is finer [m].
 constexpr double min_encoder_step = 30e-6;
 
-/// Rounding of three positions, each along three axes, and one step to and fro along one of them, as encoders have it:
-/// |(2, 2, 2) + (2, 0, 0)| at most.
+/// Noise of rounding three positions, each along three axes, and of an encoder that steps to and fro along one of them:
+/// at most |(2, 2, 2) + (2, 0, 0)|.
 constexpr double noise_in_steps = 5.0;
 
-/// Of what is possible, what a hand does all the time.
+/// Share of the possible range that a hand uses all the time.
 constexpr double usual_share = 0.6;
 
-/// A sensor whose own clock is a little slower than the loop repeats a sample now and then, unflagged; for so long
-/// a pen that moves may be shown where it was [ticks].
+/// A sensor whose own clock is a little slower than the loop repeats a sample now and then without saying so: a moving
+/// pen may be shown in the same place for this long [ticks].
 constexpr double max_wait = 3.6;
 
-/// Ticks are late or early by so much where nobody says so, and intervals too short to tell a velocity [ticks].
+/// Unreported jitter of the ticks, and the shortest interval that gives a velocity [ticks].
 constexpr double jitter = 1.0, min_interval = 0.5;
 
-/// Square of the distance of the end of `way` from the segment to the end of `course`.
+/// Squared distance from the end of `way` to the segment that ends at `course`.
 double square_beside(const Eigen::Vector3d& way, const Eigen::Vector3d& course) noexcept {
   const double length = dot(course, course);
   const double share = length > 0.0 ? std::clamp(dot(way, course) / length, 0.0, 1.0) : 0.0;
@@ -51,7 +51,7 @@ void PenCourse::begin(const Eigen::Vector3d& position, bool at_rest) noexcept {
 
 PenCourse::Step PenCourse::step(const Eigen::Vector3d& position, double elapsed) const noexcept {
   Step step;
-  // Of a clock that stands or runs backwards too.
+  // Holds for a clock that stands or runs backwards too.
   step.passed = waited_ + (elapsed > 0.0 ? std::max(elapsed, min_interval * period_) : period_);
   step.way = position - position_;
   step.square = dot(step.way, step.way);
@@ -60,9 +60,9 @@ PenCourse::Step PenCourse::step(const Eigen::Vector3d& position, double elapsed)
   return step;
 }
 
-PenCourse::Place PenCourse::judge(const Step& step) const noexcept {
+PenCourse::Place PenCourse::classify(const Step& step) const noexcept {
   if (step.is_too_far) return Place::impossible;
-  // Means over two intervals are those in their middles.
+  // Mean velocities over two intervals are those at their midpoints.
   const double margin = noise_ + max_acceleration_ * 0.5 * (took_ + step.passed) * step.passed;
   const double usual = usual_share * margin;
   if (step.square <= usual * usual) return Place::expected;

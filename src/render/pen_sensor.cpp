@@ -12,12 +12,12 @@ namespace {
 /// Maximum time over which eq. (3) integrates in one tick [s].
 constexpr double max_integration_time = 0.1;
 
-/// For how long the force is held while samples are stale [s].
+/// Time for which the force is held while samples are stale [s].
 constexpr double max_hold_time = 4e-3;
 
-/// For how long after a gap or a bad sample, and at first, the force follows the pen by its rate alone: of a noisy
-/// sensor some samples are always near by chance, and the velocity is that of a pen that nobody saw. After one that only
-/// a jerk explains, as long as the velocity remembers it [s].
+/// Time after the start, a gap or a bad sample during which the force follows the pen only at its limited rate: some
+/// samples of a noisy sensor are always near by chance, and the velocity is that of an unseen pen. After a step that
+/// only a jerk explains, as long as the velocity filter remembers it [s].
 constexpr double max_unsure_time = 0.01, jerk_time = 0.003;
 
 /// Hysteresis: the pen is above the paper once it is this far above it [m].
@@ -26,12 +26,12 @@ constexpr double lift_height = 0.0005;
 /// A pause is at least this long; what is shorter is jitter [ticks].
 constexpr double min_pause = 1.75;
 
-/// A clock of milliseconds leaps by 1000 ticks from sample to sample; no loop pauses for so many, so often.
+/// A clock that counts milliseconds leaps by 1000 ticks from sample to sample; no loop pauses that long that often.
 constexpr double min_leap = 300.0;
 constexpr int max_leaps = 50;
 
-/// A change of force that moves the pen in any hand, by tenths of a millimetre, and how often the dry friction of the
-/// device must be in it besides: it may have held the pen against twice itself, and is an estimate [N].
+/// A change of force that moves the pen by tenths of a millimetre in any hand, and how many times the dry friction of
+/// the device is added to it: friction can withstand a change of twice its size, and is an estimate [N].
 constexpr double unfelt_force = 0.5, frictions = 4.0;
 
 /// False for NaN too.
@@ -119,7 +119,7 @@ TickStatus PenSensor::accept(const DeviceState& sample, const Eigen::Vector3d& s
   if (!is_plausible(position, passed)) return TickStatus::bad_sample;
   if (!has_sample_) elapsed = period_;
   if (has_sample_ && (passed > max_gap_ || static_cast<double>(unseen_) * period_ >= max_gap_)) {
-    velocity_.restart();  // of a way that nobody saw
+    velocity_.restart();  // the way since then was not seen
     unsure_for_ = max_unsure_time;
   }
   move_device_point(sample, position);
@@ -137,8 +137,8 @@ bool PenSensor::is_leaping(double time) noexcept {
   return leaps_ == max_leaps;
 }
 
-/// A force that changes moves the pen in any hand, if only by a step of the encoder: a position that stays the same to
-/// the last bit meanwhile is that of a sensor that has died.
+/// A changing force moves the pen in any hand, if only by one encoder step: a position that meanwhile stays the same to
+/// the last bit comes from a dead sensor.
 bool PenSensor::is_frozen(const Eigen::Vector3d& position, const Eigen::Vector3d& force) noexcept {
   if (position != still_at_) {
     still_at_ = position;
@@ -150,15 +150,15 @@ bool PenSensor::is_frozen(const Eigen::Vector3d& position, const Eigen::Vector3d
   return still_for_ > max_standstill_;
 }
 
-/// A pen cannot jump: a sample off its course is rejected. Once those that are make a course of their own the pen
-/// really is elsewhere, and did not move there, or nobody knows where it was.
+/// A pen cannot jump: a sample off its course is rejected. Once rejected samples form a course of their own, the pen
+/// really is elsewhere: either it did not move there, or it is unknown where it was.
 bool PenSensor::is_plausible(const Eigen::Vector3d& position, double elapsed) noexcept {
   if (!has_sample_) {
     believed_.begin(position, false);
     return true;
   }
   const PenCourse::Step step = believed_.step(position, elapsed);
-  const PenCourse::Place place = believed_.judge(step);
+  const PenCourse::Place place = believed_.classify(step);
   if (place != PenCourse::Place::impossible) {
     believed_.add(position, step);
     if (place == PenCourse::Place::possible) unsure_for_ = std::max(unsure_for_, jerk_time);
@@ -166,7 +166,7 @@ bool PenSensor::is_plausible(const Eigen::Vector3d& position, double elapsed) no
     bool agrees = false;
     if (is_in_doubt_) {
       const PenCourse::Step doubted = doubted_.step(position, period_);
-      agrees = doubted_.judge(doubted) != PenCourse::Place::impossible;
+      agrees = doubted_.classify(doubted) != PenCourse::Place::impossible;
       doubted_.add(position, doubted);
     } else {
       doubted_.begin(position, true);
@@ -201,7 +201,7 @@ void PenSensor::estimate_motion(const Eigen::Vector3d& position, double elapsed)
   pen_.velocity = velocity_.update(position, elapsed);
   pen_.position = position;
   if (has_sample_ && unseen_ == 0 && unsure_for_ == 0.0) return;
-  // The force has not followed the pen meanwhile, and must not jump to where it would be; nor to where a sensor says
+  // The force has not followed the pen meanwhile, and must not jump to the value it would have, nor follow a sensor
   // that has just been wrong.
   pen_.last_velocity = pen_.velocity;
   pen_.last_position = position;

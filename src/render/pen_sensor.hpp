@@ -28,7 +28,7 @@ class PenSensor {
   /// The options must be valid.
   PenSensor(const RendererOptions& options, const MotionMapping& mapping, const Capabilities& capabilities);
 
-  /// `sent`: the last force, for a device that does not say which one is at work [N, device axes].
+  /// `sent`: the last force, for a device that does not report the force at work [N, device axes].
   PenState& update(const DeviceState& sample, const Eigen::Vector3d& sent) noexcept;
   void restart() noexcept;
 
@@ -48,7 +48,7 @@ class PenSensor {
   double max_speed_;    ///< [m/s, page]
   double period_;       ///< [s]
   bool counts_pauses_;  ///< for the account of energy
-  double max_gap_;      ///< a pen is unseen for longer only where samples are missing [s]
+  double max_gap_;      ///< a longer time without a sample means that samples are missing [s]
   double max_standstill_;  ///< [s]
   double min_force_change_;  ///< that moves any pen [N, device]
   VelocityEstimator velocity_;
@@ -56,12 +56,12 @@ class PenSensor {
   bool has_sample_ = false;                  ///< a sample was accepted, and the pen has moved on from there
   double time_ = 0.0;                        ///< of that sample [s]
   double clock_ = 0.0;                       ///< time of the last sample that was not stale [s]
-  int leaps_ = 0;                            ///< samples running that were much later than the one before
+  int leaps_ = 0;                            ///< consecutive samples that were much later than the one before
   std::int64_t unseen_ = 0;                  ///< ticks since then, without a good sample
   double above_for_ = 0.0;                   ///< how long a pen in contact has been above the paper [s]
-  double unsure_for_;         ///< the force is not to follow the pen at once yet [s]
+  double unsure_for_;         ///< how long the force must not yet follow the pen at once [s]
   PenCourse believed_;        ///< of the pen
-  PenCourse doubted_;         ///< of samples that are not on it
+  PenCourse doubted_;         ///< of samples off that course
   bool is_in_doubt_ = false;  ///< the last sample was one of these
   Eigen::Vector3d still_at_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [m, device]
   Eigen::Vector3d still_force_ = Eigen::Vector3d::Zero();  ///< at work when the pen was first seen there [N, device]

@@ -1,4 +1,4 @@
-// A page with what the servo loop asks of its characters, worked out in advance.
+// A page with what the servo loop needs to know about its characters, worked out in advance.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace calligraphy {
 
-/// With its own progress, which begins anew with each attempt.
+/// A stroke with its own progress, which starts again with each attempt.
 struct PreparedStroke {
   ActiveStroke geometry;
   StrokeFollower follower;

@@ -1,4 +1,4 @@
-// A guidance force that is withdrawn in time, so that a hand that pulls against it is not thrown.
+// A guidance force that is withdrawn gradually, so that a hand that pulls against it is not thrown.
 #pragma once
 
 #include <algorithm>
@@ -7,12 +7,12 @@
 
 namespace calligraphy {
 
-/// From 0 to 1 as `share` does, with no slope at either end.
+/// Rises from 0 to 1 with `share`, without slope at either end.
 inline double smooth_step(double share) noexcept { return share * share * (3.0 - 2.0 * share); }
 
 /// A spring and a damper along the force that was at work: the spring only slackens and never pushes the other way, and
-/// vanishes before the damper does. A hand that has been let go of finds less and less, and a pen that nobody holds
-/// is not driven on.
+/// vanishes before the damper does. A hand that is let go of feels less and less, and a pen that nobody holds is not
+/// driven on.
 class ReleasedSpring {
  public:
   void clear() noexcept { *this = {}; }
@@ -49,7 +49,7 @@ class ReleasedSpring {
   bool acts_ = false;
   Point direction_ = Point::Zero();
   Point tip_ = Point::Zero();
-  double strained_ = 0.0;  ///< of the spring, at most [N]
+  double strained_ = 0.0;  ///< maximum force of the spring [N]
   double stiffness_ = 0.0, damping_ = 0.0;
   double step_ = 1.0, passed_ = 0.0;  ///< share of the time
 };

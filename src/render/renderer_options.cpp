@@ -16,8 +16,8 @@
 namespace calligraphy {
 namespace {
 
-/// Slower, a force that a fault releases would stay for longer than the hand takes to notice; the other one keeps every
-/// force step finite [N/s].
+/// At a lower rate, a force released by a fault would stay for longer than the hand takes to notice; the upper bound
+/// keeps every force step finite [N/s].
 constexpr double min_force_rate = 10.0, max_force_rate = 1e12;
 
 /// More than any device has [N].
@@ -27,7 +27,7 @@ constexpr double max_force = 1e6;
 constexpr double max_saturated_guidance = 3.0;  ///< [N]
 constexpr double guidance_peak_share = 0.75;    ///< of the peak force
 
-/// Friction between pen and paper, of which everything() renders what the device does not have itself.
+/// Friction between pen and paper; everything() renders the part that the device does not have itself.
 constexpr double paper_friction_coefficient = 0.15;
 
 void require_force_rate(const char* name, double rate) {
@@ -36,7 +36,7 @@ void require_force_rate(const char* name, double rate) {
                  "by a slower one a force neither sets in with a stroke nor is gone soon after a fault");
 }
 
-/// On a page of motion scale K_S, what the hand feels as it does these options at scale 1.
+/// Options that feel the same on a page of motion scale K_S as these do at scale 1.
 RendererOptions felt_alike(RendererOptions options, double scale) {
   for (double* impedance :
        {&options.paper.stiffness, &options.paper.damping, &options.guidance.stiffness, &options.guidance.damping,

@@ -12,10 +12,10 @@ constexpr double max_rate = 1e6;   // [Hz]
 constexpr double max_value = 1e9;  // of any other field, so that no product of them overflows
 constexpr int max_sample_delay = 1000;
 
-/// For a device that states none: the minimum of the shipped profiles [N].
+/// Coulomb friction assumed of a device that states none: the minimum of the shipped profiles [N].
 constexpr double presumed_friction = 0.04;
 
-/// Of the damping beyond which a mass is thrown back within one period.
+/// Share of the damping beyond which a mass is thrown back within one period.
 constexpr double inertial_share = 0.9;
 
 StiffnessBound passive_bound(const SampledLoop& loop) {

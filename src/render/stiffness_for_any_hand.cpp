@@ -24,7 +24,7 @@ struct Felt {
 };
 
 std::vector<Felt> felt_spring(const SampledLoop& loop, double velocity_cutoff) {
-  constexpr double min_frequency = 0.5;  // [rad/s]: softer springs than 0.1 N/m are not looked at
+  constexpr double min_frequency = 0.5;  // [rad/s]: springs softer than 0.1 N/m are not considered
   constexpr double ratio = 1.03;
   const double period = 1.0 / loop.rate;
   const double passed = -std::expm1(-2.0 * std::numbers::pi * velocity_cutoff * period);
@@ -59,7 +59,7 @@ bool is_damped(const SampledLoop& loop, const Felt& at, const std::complex<doubl
   return true;
 }
 
-/// At every frequency at which a hand can make the pen resonate with the spring, and at the frequency above, so that no
+/// Checks every frequency at which a hand can make the pen resonate with the spring, and the next one above, so that no
 /// such range is missed between two.
 bool is_damped(const SampledLoop& loop, const std::vector<Felt>& felt, double stiffness) {
   // A spring so soft that nothing swings on it at the lowest frequency is only a damper.
@@ -84,7 +84,7 @@ double stiffness_for_any_hand(const SampledLoop& loop, double velocity_cutoff, d
     const double middle = 0.5 * (low + high);
     (is_damped(loop, felt, middle) ? low : high) = middle;
   }
-  // So soft a spring that nothing swings on it at the lowest frequency looked at.
+  // On a softer spring nothing swings at the lowest frequency considered.
   const double min_stiffness = loop.device.apparent_mass * felt.front().frequency * felt.front().frequency;
   return low > min_stiffness * (1.0 + 1e-6) ? low : 0.0;
 }

@@ -16,17 +16,17 @@
 namespace calligraphy {
 namespace {
 
-/// Of a device that states none, with a margin: the lightest of the shipped profiles weighs 45 g [kg].
+/// Mass assumed of a device that states none, with a margin: the lightest of the shipped profiles weighs 45 g [kg].
 constexpr double presumed_mass = 0.02;
 
-/// Of what guidance and friction may be together, friction has at least this share if it asks for it.
+/// Minimum share of friction, if it asks for as much, in what guidance and friction may be together.
 constexpr double friction_share = 0.35;
-constexpr double min_friction_stiffness = 1.0;  ///< with less there is none [N/m]
+constexpr double min_friction_stiffness = 1.0;  ///< below this there is no friction [N/m]
 
-/// Relative: what has been clipped must not be clipped again for a rounding error.
+/// Relative tolerance: what has been clipped must not be clipped again because of rounding.
 constexpr double slack = 1e-9;
 
-/// Force of a damper for one step of the encoder, where Coulomb friction does not hold more [N].
+/// Maximum force of a damper for one encoder step, unless Coulomb friction holds more [N].
 constexpr double max_damper_click = 0.1;
 
 struct StiffnessLimit {
@@ -46,7 +46,7 @@ StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
 /// Rounded to single precision: the last bits, which differ between implementations of libm, reach no force.
 double without_last_bits(double stiffness) { return static_cast<float>(stiffness); }
 
-/// What the springs of a page may be, given the loop that renders them.
+/// How stiff the springs of a page may be, given the loop that renders them.
 class Limits {
  public:
   Limits(const RendererOptions& options, const Capabilities& capabilities, double scale)
@@ -64,7 +64,7 @@ class Limits {
     }
   }
 
-  /// Of a stiffness on the page beside `damping` on the page [N/m].
+  /// Limits of a stiffness on the page next to `damping` on the page [N/m].
   StiffnessLimit usable() const { return {usable_.value / square_, enlarged_ + ": " + usable_.reason}; }
   StiffnessLimit stable(double damping) const {
     if (is_off_) return {std::numeric_limits<double>::infinity(), ""};
@@ -105,7 +105,7 @@ class Limits {
   }
 
  private:
-  /// Whether the damper drives nothing by itself, with the loop's lag or with the steps of the encoder.
+  /// Whether the damper alone drives no motion, through the lag of the loop or the encoder steps.
   bool is_safe(double damping) const {
     constexpr double almost_nothing = 1e-3;  // [N/m]
     SampledLoop loop = loop_;

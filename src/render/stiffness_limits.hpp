@@ -3,10 +3,10 @@
 
 namespace calligraphy {
 
-/// For a device that states no limit; keeps every force finite [N/m].
+/// Maximum stiffness on a device that states no limit; keeps every force finite [N/m].
 inline constexpr double max_stiffness = 1e6;
 
-/// Likewise [N s/m].
+/// Maximum damping, for the same reason [N s/m].
 inline constexpr double max_damping = 1e6;
 
 }  // namespace calligraphy

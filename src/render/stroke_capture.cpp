@@ -13,7 +13,7 @@ constexpr double max_stretch_share = 0.25;
 /// that a writer means: it is judged over this length [em], at most this share of the stroke.
 constexpr double longer_stretch = 0.15, longer_stretch_share = 0.5, contradiction_cosine = 0.5;
 
-/// A pen that writes another stroke was put down about as near to its start: at most this many times as far.
+/// A pen that writes another stroke was put down at most this many times as far from its start as from the due one.
 constexpr double about_as_far = 1.5;
 
 /// How badly a first stretch fits a stroke, as shares of the tolerances.
@@ -30,8 +30,8 @@ Misfit misfit(const StrokeStart& start, const Point& from, const Point& way, dou
   return {(from - start.point).norm() / (tolerances.start_distance * em), angle / tolerances.direction};
 }
 
-/// A pen that was put down beside a stroke may approach it, by itself or led by guidance: what remains of its way from
-/// there `to` where it is says what it writes.
+/// A pen that was put down beside a stroke may approach it, by itself or led by guidance: only the rest of its way from
+/// there `to` its present place shows what it writes.
 Point own_way(const StrokeStart& start, const Point& from, const Point& to) {
   const Point normal(-start.direction.y(), start.direction.x());
   const double before = normal.dot(from - start.point), after = normal.dot(to - start.point);
@@ -39,8 +39,8 @@ Point own_way(const StrokeStart& start, const Point& from, const Point& to) {
   return to - from + (before - left) * normal;
 }
 
-/// From a stroke's start to the farthest point among the corners within an arc length [m] and the point there: a stroke
-/// that turns back so soon comes no nearer to its start in between.
+/// The vector from a stroke's start to the farthest of the corners within an arc length [m] and the point at that
+/// length: a stroke that turns back so soon comes no nearer to its start in between.
 Point first_stretch(const std::vector<StrokeElement>& elements, double arc) {
   const Point start = elements.front().origin();
   Point farthest = Point::Zero();
@@ -90,15 +90,15 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
                                      const StrokeTolerances& tolerances) noexcept {
   if (verdict_ == CaptureVerdict::another_stroke) return verdict_;
   const StrokeStart& start = starts[due];
-  // A pen on its way back to the start, by itself or led by guidance, sets out from as near as it has come.
+  // A pen on its way back to the start, by itself or led by guidance, sets out from the nearest place that it reaches.
   const double before = start.direction.dot(anchor_ - start.point), after = start.direction.dot(tip - start.point);
   if (after < before && before > 0.0) anchor_ += (std::max(after, 0.0) - before) * start.direction;
   const Point way = own_way(start, anchor_, tip);
-  // Guidance leads a pen towards the due stroke where it is the likely one: that says nothing of the others.
+  // Guidance leads a pen towards the due stroke if that is the likely one, which says nothing about the others.
   const Point shown = is_nearest_ ? way : Point(tip - anchor_);
   if (!(shown.norm() >= start.stretch)) return verdict_;
 
-  // Of the strokes written before, the writer was off by about as much.
+  // The writer was off by about as much on the strokes before.
   const Point seen = anchor_ - misplaced();
   const Misfit expected = misfit(start, seen, shown, em, tolerances);
   bool is_other = false, is_nearer = false;

@@ -15,10 +15,10 @@ struct StrokeStart {
   Point point = Point::Zero();
   Point direction = Point::Zero();  ///< unit vector; zero for a stroke without length
   double stretch = 0.0;             ///< length over which the direction is judged [m]
-  bool bends = false;               ///< over a longer one than usual, within which the stroke turns
+  bool bends = false;               ///< judged over a longer stretch than usual, within which the stroke turns
 };
 
-/// Those of every stroke of a character.
+/// The starts of all strokes of a character.
 std::vector<StrokeStart> stroke_starts(const PlacedCharacter& placed, const StrokeTolerances& tolerances);
 
 enum class CaptureVerdict {
@@ -28,10 +28,10 @@ enum class CaptureVerdict {
   another_stroke    ///< it writes another one, until it is lifted
 };
 
-/// One pen-down after the other within a character. Never allocates.
+/// Judges one pen-down after another within a character. Never allocates.
 class StrokeCapture {
  public:
-  /// A new character: nothing is known of where the writer sees it.
+  /// Begins a new character: nothing is known about where the writer sees it.
   void restart() noexcept { *this = {}; }
 
   /// The pen was put down at `tip` [m, page], with stroke `due` of `starts` to be written.
@@ -48,7 +48,7 @@ class StrokeCapture {
   /// Where the stroke was begun [m, page].
   const Point& begin() const noexcept { return anchor_; }
 
-  /// How far off the strokes of this character were begun, on average [m]; the first ones say little.
+  /// Average offset at which the strokes of this character were begun [m]; the first ones count for little.
   Point misplaced() const noexcept { return misplaced_ / (count_ + 1); }
 
   /// The stroke that begins at `start` was written to its end: writers misplace the strokes of a character alike.
@@ -59,7 +59,7 @@ class StrokeCapture {
   Point down_ = Point::Zero();    ///< where the pen was put down
   CaptureVerdict verdict_ = CaptureVerdict::undecided;
   bool is_nearest_ = false;
-  bool is_first_ = true;             ///< the pen has not yet gone as far since it was put down
+  bool is_first_ = true;             ///< the pen has not yet written a first stretch since it was put down
   Point misplaced_ = Point::Zero();  ///< sum over the strokes written so far [m]
   int count_ = 0;
 };

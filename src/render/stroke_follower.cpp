@@ -12,7 +12,7 @@ namespace {
 
 constexpr double spacing = 0.01;  ///< of the points, where the stroke is not too long for that [em]
 constexpr int min_points = 5;
-constexpr int first_points = 4;  ///< over which the direction of the start is seen
+constexpr int first_points = 4;  ///< over which the direction of the start is measured
 
 /// A point is abreast of the pen within this distance along the stroke [em], at most this share of the stroke.
 constexpr double max_lead = 0.03, max_lead_share = 0.15;
@@ -24,8 +24,8 @@ constexpr double step = 0.01;
 /// than 37 degrees [em].
 constexpr double bend = 0.03, bend_cosine = 0.8;
 
-/// The pen's own offset across the stroke follows it over this arc length [em], where it comes back to the stroke over
-/// the second one [em].
+/// Arc length over which the pen's own offset follows the pen, and the one over which it does so when the pen comes
+/// back to the stroke [em].
 constexpr double follow = 1.0, give_up = 0.05;
 
 /// The pen's way is measured in chords of this length, which a fine tremor does not lengthen [em].
@@ -47,7 +47,7 @@ double beyond(double value, double low, double high) {
 
 Pair beyond(Pair values, Pair low, Pair high) { return larger(values - high, Pair{}) + smaller(values - low, Pair{}); }
 
-/// Of a vector, to the left of a direction.
+/// Component of a vector to the left of a direction.
 double left(const Point& vector, const Point& direction) {
   return vector.y() * direction.x() - vector.x() * direction.y();
 }
@@ -82,7 +82,7 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
     if (is_inside && in.dot(out) < bend_cosine * in.norm() * out.norm()) special_ |= std::uint64_t{1} << i;
   }
 
-  // Less than the length where the stroke doubles back.
+  // The path measured in chords is shorter than the stroke where that doubles back.
   begin(point(0), Point::Zero());
   constexpr int parts = 4;
   for (int i = 1; i < count_; ++i) {
@@ -111,7 +111,7 @@ void StrokeFollower::update(const Point& tip, const Point& hand) noexcept {
 
 void StrokeFollower::leave() noexcept { look(tip_, (tip_ - seen_).norm()); }
 
-/// Of the first stretch, unless it bends, and of lost samples only the ends are known.
+/// Fills in between samples: of lost ones, and of a first stretch that does not bend, only the ends are known.
 [[gnu::noinline]] void StrokeFollower::look_along() noexcept {
   const Point from = seen_;
   const double moved = (tip_ - from).norm();
@@ -119,15 +119,15 @@ void StrokeFollower::leave() noexcept { look(tip_, (tip_ - seen_).norm()); }
   for (int i = 1; i <= steps; ++i) look(from + (tip_ - from) * i / steps, moved / steps);
 }
 
-/// How far a vector from the stroke is across it, beyond all that the writer may be off by: nothing, as the character,
-/// or as the stroke.
+/// How far a vector from the stroke reaches across it, beyond the offsets that the writer may have: none, that of the
+/// character, or that of the stroke.
 double StrokeFollower::across(const Point& from_stroke, const Point& tangent) const noexcept {
   const double own = left(own_, tangent), misplaced = left(misplaced_, tangent);
   const double low = std::min(0.0, std::min(own, misplaced)), high = std::max(0.0, std::max(own, misplaced));
   return std::abs(beyond(left(from_stroke, tangent), low, high));
 }
 
-/// Two points at a time, this one and the next.
+/// Places two points at a time, this one and the next.
 [[gnu::always_inline]] inline void StrokeFollower::place(const Point& tip, int point, Places& places) const noexcept {
   const RowPoint &one = row(point), &other = row(point + 1);
   const Pair x = tip.x() - Pair{one.point.x(), other.point.x()}, y = tip.y() - Pair{one.point.y(), other.point.y()};
@@ -175,14 +175,14 @@ void StrokeFollower::look(const Point& tip, double way) noexcept {
   const std::uint64_t next = reached_ | reached_ << 1;
   Places places;
   places.free = 0;
-  // As far as the pen can have come: further only through points that it passes.
+  // Only as far as the pen can have come: on through points that it passes.
   int end = std::countr_zero(reached_) & ~1;
   do {
     place(tip, end, places);
     end += 2;
   } while (end < count_ && (next >> end != 0 || (places.free >> (end - 1) & 1) != 0));
   if (count_ % 2 != 0) places.free &= (std::uint64_t{1} << count_) - 1;
-  // The carries of the sum run on through what is free.
+  // The carries of the sum propagate through the free points.
   const std::uint64_t seeds = next & places.free;
   const std::uint64_t reached = (((places.free + seeds) ^ places.free) & places.free) | seeds;
 

@@ -10,14 +10,13 @@
 
 namespace calligraphy {
 
-/// The stroke is a row of points at equal arc length. Which of them the pen can have reached in order, passing each
-/// while it was free, that is, abreast of the pen and near enough, follows from step to step by the recurrence that
-/// decides whether a discrete Frechet distance is within a bound (Eiter and Mannila, Computing discrete Frechet
-/// distance, 1994). What the writer is off by is allowed for: docs/capture.md draws it and says how. Only load()
-/// allocates.
+/// The stroke is a row of points at equal arc length. A point is free while it is abreast of the pen and near enough.
+/// Which points the pen can have reached in order, each while it was free, follows step by step from the recurrence
+/// that decides whether a discrete Frechet distance is within a bound (Eiter and Mannila, Computing discrete Frechet
+/// distance, 1994). The writer's offset is allowed for, as docs/capture.md explains. Only load() allocates.
 class StrokeFollower {
  public:
-  /// The stroke to be written, in a square of `em` [m]. Takes a few microseconds.
+  /// Loads the stroke to be written, in a square of `em` [m]. Takes a few microseconds.
   void load(const ActiveStroke& stroke, double em, const StrokeTolerances& tolerances);
 
   /// The stroke is begun at `tip`, in a character that the writer has misplaced by `misplaced` so far [m, page].
@@ -25,17 +24,17 @@ class StrokeFollower {
 
   /// The pen is at `tip`, on the paper, and the hand means to be at `hand` [m, page].
   void update(const Point& tip, const Point& hand) noexcept;
-  /// The pen leaves the stroke where it was last: the rest of its way, however short, counts too.
+  /// The pen leaves the stroke where it was last: the rest of its path, however short, counts too.
   void leave() noexcept;
 
   /// Share of the stroke that was written in order.
   double covered() const noexcept;
-  /// Whether what was written is the stroke, of which up to `hidden` may be missing besides what is tolerated [m].
+  /// Whether the stroke has been written, with up to `hidden` [m] missing in addition to the tolerance.
   bool accepts(double hidden) const noexcept;
   /// Whether the pen is at the end of the stroke, up to `hidden` [m] short of it, or has been there, in order.
   bool is_at_end(double hidden) const noexcept;
 
-  /// Distance across the stroke of a hand that is at `hand`, beyond what the writer is off by anyway [m].
+  /// Distance of a hand at `hand` across the stroke, beyond the offset that is allowed for [m].
   double astray(const Point& hand, const StrokeContact& contact) const noexcept;
 
  private:
@@ -45,9 +44,9 @@ class StrokeFollower {
     Point point, tangent;
   };
 
-  /// Where the pen is relative to the points of the stroke, the offset at the beginning allowed for.
+  /// Where the pen is relative to the points of the stroke, allowing for its offset at the beginning.
   struct Places {
-    std::array<double, max_points> along;   ///< how far the pen is ahead of each, beyond what it is off by [m]
+    std::array<double, max_points> along;   ///< how far the pen is ahead of each, beyond its allowed offset [m]
     std::array<double, max_points> square;  ///< of the distance, with the pen's own offset [m^2]
     std::uint64_t free;                     ///< bit i: the pen passes point i
   };
@@ -65,25 +64,25 @@ class StrokeFollower {
   double em_ = 0.0, length_ = 0.0, spacing_ = 0.0;
   double width_ = 0.0;      ///< of the corridor to each side
   double lead_ = 0.0;       ///< a point this far ahead or behind is abreast of the pen
-  double exact_way_ = 0.0;  ///< of a pen that draws the stroke exactly
+  double exact_way_ = 0.0;  ///< length of the path of a pen that draws the stroke exactly
   double share_ = 0.0, slack_ = 0.0;
-  std::vector<RowPoint> row_;  ///< and the last one again: they are placed in pairs
+  std::vector<RowPoint> row_;  ///< with the last one twice, since they are placed in pairs
   std::uint64_t special_ = 0;  ///< bit i: the stroke bends sharply at point i, or ends there
 
   // The pen. [m]
   std::uint64_t reached_ = 0;         ///< bit i: point i can have been reached in order
   Point own_ = Point::Zero();         ///< offset from the stroke
-  Point late_ = Point::Zero();        ///< what of it was a start beyond the stroke's
-  Point misplaced_ = Point::Zero();   ///< that of the character
+  Point late_ = Point::Zero();        ///< part of it due to a start beyond the stroke's
+  Point misplaced_ = Point::Zero();   ///< offset of the character
   Point tip_ = Point::Zero();         ///< of the last sample
   Point pull_ = Point::Zero();        ///< from there to where the hand means to be
   Point seen_ = Point::Zero();        ///< where the pen was last looked at
-  Point chord_from_ = Point::Zero();  ///< where the chord began that it is on
+  Point chord_from_ = Point::Zero();  ///< beginning of the current chord
   double nearest_ = 0.0;              ///< arc length of the furthest point that the pen was nearest to
   double covered_ = 0.0;              ///< arc length
   double way_ = 0.0, outside_ = 0.0;  ///< lengths of the pen's path, and of what lay outside the corridor
   double chords_ = 0.0;               ///< length of the path inside it
-  double to_end_ = 0.0;               ///< from the end of the stroke, once that can have been reached
+  double to_end_ = 0.0;               ///< distance to the end of the stroke, once that can have been reached
 };
 
 }  // namespace calligraphy

@@ -9,8 +9,8 @@
 namespace calligraphy {
 namespace {
 
-/// The box is left this far outside its edge [em]; by a pen that writes, so many times as far: it is under force there,
-/// and would be thrown where the stroke is abandoned.
+/// A pen leaves the box this far outside its edge [em]; while writing, this many times as far, since it is under force
+/// there and would be thrown when the stroke is abandoned.
 constexpr double box_hysteresis = 0.05, writing_hysteresis = 3.0;
 
 /// A pen put down on the stroke this far along it is at its end.
@@ -19,8 +19,8 @@ constexpr double end_share = 0.75;
 /// Guidance lets go of a pen where the tube's weight has fallen to this.
 constexpr double min_held_weight = 0.5;
 
-/// It also lets go where the hand means to be this many corridors farther across than the writer is off by anyway, and
-/// takes hold again within one.
+/// It also lets go where the hand means to be more than this many corridors across the stroke, beyond the offset that
+/// is allowed for, and takes hold again within one.
 constexpr double max_detour = 2.0;
 
 bool is_within(const Eigen::AlignedBox2d& box, const Point& point) {
@@ -157,7 +157,7 @@ void StrokeSequencer::write_on(const PenState& pen) noexcept {
   writer_.covered = due_->follower.covered();
 }
 
-/// At its end, or where the pen `leaves` it before.
+/// A stroke is finished at its end, or where the pen `leaves` it earlier.
 bool StrokeSequencer::is_finished(bool leaves) const noexcept {
   if (tolerances_.coverage == 0.0) return writer_.contact.finished;
   return (leaves || due_->follower.is_at_end(hidden_way_)) && due_->follower.accepts(2.0 * hidden_way_);
@@ -248,16 +248,16 @@ WritingPhase StrokeSequencer::phase_before_stroke(const Point& tip) const noexce
   return writer_.rests ? WritingPhase::in_middle : WritingPhase::away;
 }
 
-/// Where the hand means to be, as far as the force at work shows, if the device says what that is.
+/// Where the hand means to be, as shown by the force at work if the device reports it.
 Point StrokeSequencer::hand(const PenState& pen) const noexcept {
   Point place = pen.tip.head<2>();
   if (is_finite(pen.force)) place -= mapping_.force_to_page(pen.force).head<2>() * compliance_;
   return place;
 }
 
-/// Guidance lets go, in time, of a pen that is far from the stroke or that the hand pulls elsewhere, and takes hold
-/// again where both are back: a pen that slipped out of the tube would be thrown, and one that another stroke was meant
-/// for would be dragged along.
+/// Guidance gradually lets go of a pen that is far from the stroke or that the hand pulls elsewhere, and takes hold
+/// again when both are back: a pen that slipped out of the tube would be thrown, and one meant for another stroke would
+/// be dragged along.
 bool StrokeSequencer::keeps_hold() const noexcept {
   if (!lets_go_ || has_event(writer_.events, TickEvent::stroke_started)) return true;
   const StrokeContact& contact = writer_.contact;
@@ -267,8 +267,8 @@ bool StrokeSequencer::keeps_hold() const noexcept {
   return contact.closest.distance <= corridor && detour <= corridor;
 }
 
-/// Before the stroke, guidance leads a pen that is likely to begin it: put down nearer to its start than to any to
-/// come. One that rests on the stroke elsewhere is free forwards and resisted backwards, where its start is.
+/// Before the stroke, guidance leads a pen that is likely to begin it: put down nearer to its start than to that of any
+/// later stroke. A pen that rests elsewhere on the stroke is free forwards and resisted backwards, towards the start.
 bool StrokeSequencer::is_guided() const noexcept {
   if (writer_.phase == WritingPhase::guided) return true;
   if (writer_.state != InteractionState::calibration) return false;

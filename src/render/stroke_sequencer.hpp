@@ -23,7 +23,7 @@ class StrokeSequencer {
                   const MotionMapping& mapping, bool lets_go);
 
   const WriterState& update(const PenState& pen) noexcept;
-  /// Nothing is written.
+  /// Starts the page again, with nothing written.
   void restart() noexcept;
   /// HapticRenderer::skip_stroke().
   bool skip() noexcept;
@@ -32,7 +32,7 @@ class StrokeSequencer {
 
  private:
   bool all_written() const noexcept { return character_ == nullptr; }
-  /// Until the pen is lifted from it. Not all may be written.
+  /// True until the pen is lifted from it. Requires !all_written().
   bool is_character_written() const noexcept { return writer_.stroke == static_cast<int>(character_->strokes.size()); }
 
   TransitionInput advance(const PenState& pen) noexcept;
@@ -59,13 +59,13 @@ class StrokeSequencer {
   StrokeTolerances tolerances_;
   double box_hysteresis_;      ///< [em]
   bool lift_between_strokes_;  ///< ContactOptions
-  bool leads_to_start_;        ///< guidance does
-  bool lets_go_;               ///< guidance does, of a pen that is astray
+  bool leads_to_start_;        ///< guidance leads to the start
+  bool lets_go_;               ///< guidance lets go of a pen that is astray
   MotionMapping mapping_;
   double hidden_way_;  ///< how far dry friction keeps the pen short of where a usual hand means to be [m, page]
   double compliance_;  ///< of a usual grip [m/N, page]
-  PreparedCharacter* character_ = nullptr;  ///< of `page_`: the one to be written; null once all are
-  PreparedStroke* due_ = nullptr;           ///< likewise; the last once all are
+  PreparedCharacter* character_ = nullptr;  ///< the one of `page_` to be written; null once all are
+  PreparedStroke* due_ = nullptr;           ///< its stroke that is due; the last once all are written
   Point hand_ = Point::Zero();              ///< where the hand means to be, in the writing state [m, page]
   StrokeCapture capture_;
   bool inside_box_ = false;

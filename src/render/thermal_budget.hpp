@@ -7,17 +7,17 @@
 namespace calligraphy {
 
 /// A first-order model of motor heating: driven by the square of the force, in equilibrium at the continuous force,
-/// with time constant `time_constant`. The permitted force is the largest one that may still sink to the continuous
-/// force by its share 1 / time_constant [1/s] before the heat exceeds 1: c (1 + sqrt(1 - h)), at most twice the
-/// continuous force c (docs/stability-derivation.md). So a hand that leans on it gives way by 10 % per second with 10 s,
-/// as much as it can just tell of two forces, and not in a moment.
+/// with time constant `time_constant`. The permitted force is the largest one that can still fall to the continuous
+/// force at a relative rate of 1 / time_constant [1/s] before the heat exceeds 1: c (1 + sqrt(1 - h)), at most twice
+/// the continuous force c (docs/stability-derivation.md). With 10 s, it thus gives way under a leaning hand by 10 % per
+/// second, about the least difference that a hand can feel, and not in a moment.
 struct ThermalBudget {
   double peak = 0.0;           ///< [N]
   double continuous = 0.0;     ///< [N]
   double time_constant = 0.0;  ///< [s]
   double heat = 0.0;           ///< 1: in equilibrium at the continuous force [1]
-  double last_seconds = 0.0;   ///< for which a force was held last [s]
-  double last_share = 0.0;     ///< of the way to equilibrium that it went in that time [1]
+  double last_seconds = 0.0;   ///< for which the last force was held [s]
+  double last_share = 0.0;     ///< of the way to equilibrium that the heat covers in that time [1]
 
   double max_force() const noexcept {
     return std::min(peak, continuous * (1.0 + std::sqrt(std::max(1.0 - heat, 0.0))));

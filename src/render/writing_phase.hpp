@@ -12,7 +12,7 @@ namespace calligraphy {
 enum class WritingPhase : std::uint8_t {
   lifted,        ///< not on the paper
   page_written,  ///< no stroke is due
-  finished,      ///< has just finished the stroke before, and must be lifted
+  finished,      ///< has just finished the previous stroke, and must be lifted
   away,          ///< too far from the start
   in_middle,     ///< put down on the stroke, elsewhere than at its start
   at_end,        ///< put down on the stroke, and now on its last quarter

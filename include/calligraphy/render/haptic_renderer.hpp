@@ -24,13 +24,13 @@ class HapticRenderer {
  public:
   /// Prepares a page, with nothing written.
   /// @throws ValueError naming the option, the mapping, the character or its placement that is invalid, or the stroke
-  /// that a pen would not begin or finish though it drew it exactly, with tolerances that are no preset
+  /// that would not be begun or finished even if drawn exactly, with tolerances other than a preset
   HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping, const Capabilities& capabilities,
                  const RendererOptions& options = {});
 
-  /// Of one that was moved from, update() gives no force; otherwise it may only be destroyed or assigned to.
+  /// After the move, update() of the source gives no force; otherwise the source may only be destroyed or assigned to.
   HapticRenderer(HapticRenderer&&) noexcept;
-  /// Likewise.
+  /// As the move constructor.
   HapticRenderer& operator=(HapticRenderer&&) noexcept;
   ~HapticRenderer();
 
@@ -40,27 +40,27 @@ class HapticRenderer {
   /// Starts the page again: nothing written, force zero immediately, energy and heat as at the beginning.
   void restart() noexcept;
 
-  /// Passes over the stroke that is due, as though it had been written, but without an event: neither a recording nor a
-  /// score counts it as written. Past the last stroke of a character the next one is due, and past that of the last
+  /// Skips the stroke that is due as though it had been written, but without an event: neither a recording nor a score
+  /// counts it as written. After the last stroke of a character the next character is due, and after that of the last
   /// character the page counts as written. A pen on the paper must be lifted first, as after a stroke that was written.
-  /// last() shows it from the next update() on. For the thread that calls update(), between two calls; never allocates.
-  /// Returns false, and does nothing, while the pen writes the stroke (InteractionState::writing) and where none is
-  /// due: the page is written, or the pen has not left the last stroke of the character yet.
+  /// last() shows the skip from the next update() on. Call this in the thread that calls update(), between two calls;
+  /// it never allocates. Returns false, and does nothing, while the pen writes the stroke (InteractionState::writing)
+  /// and when none is due: the page is written, or the pen has not left the last stroke of the character yet.
   bool skip_stroke() noexcept;
 
-  /// What the guidance law says of itself; in its name also by what it is scaled down, and the budget that it was given.
+  /// Traits of the guidance law; the name also states any scaling down, and the energy budget that it was given.
   const GuidanceTraits& law() const noexcept;
-  /// What the guidance law threw first since the restart; null: nothing. TickStatus::bad_law says when.
+  /// First exception of the guidance law since the restart; null: none. TickStatus::bad_law says when.
   const std::exception_ptr& law_error() const noexcept;
 
-  /// What the last update() returned. For the thread that calls update() alone: for a display, publish it through a
+  /// What the last update() returned. Only for the thread that calls update(); for a display, publish it through a
   /// LatestValue.
   const HapticTick& last() const noexcept;
   /// Effective options: with StiffnessCheck::clip, stiffnesses may be lower than requested.
   const RendererOptions& options() const noexcept;
-  /// What was clipped, one line per value, with the reason.
+  /// The values that were clipped, one line each, with the reason.
   const std::vector<std::string>& clipped() const noexcept;
-  /// From device axes to page axes, as given to the constructor.
+  /// The mapping from device axes to page axes, as given to the constructor.
   const MotionMapping& mapping() const noexcept;
   /// The characters to be written, in this order.
   const std::vector<PlacedCharacter>& page() const noexcept;

@@ -18,18 +18,18 @@ enum class TickEvent : std::uint16_t {
   stroke_started = 1 << 2,      ///< the first stretch of the active stroke was written: guidance begins
   feature_passed = 1 << 3,      ///< a feature point of the active stroke was passed
   stroke_finished = 1 << 4,     ///< a stroke was written to its end; `stroke` of this tick is already the next
-  stroke_abandoned = 1 << 5,    ///< left before its end; its trace is to be cleared
-  character_finished = 1 << 6,  ///< its last stroke was finished
-  page_finished = 1 << 7        ///< its last character was finished
+  stroke_abandoned = 1 << 5,    ///< a stroke was left before its end; its trace is to be cleared
+  character_finished = 1 << 6,  ///< the last stroke of a character was finished
+  page_finished = 1 << 7        ///< the last character of the page was finished
 };
 
-/// The events of both.
+/// The events of `a` and of `b`.
 constexpr TickEvent operator|(TickEvent a, TickEvent b) noexcept {
   return static_cast<TickEvent>(static_cast<std::uint16_t>(a) | static_cast<std::uint16_t>(b));
 }
 /// Adds the events of `b` to `a`.
 constexpr TickEvent& operator|=(TickEvent& a, TickEvent b) noexcept { return a = a | b; }
-/// Whether `event`, or one of several, is among the events.
+/// Whether `event`, or any of several, is among the events.
 constexpr bool has_event(TickEvent events, TickEvent event) noexcept {
   return (static_cast<std::uint16_t>(events) & static_cast<std::uint16_t>(event)) != 0;
 }
@@ -37,18 +37,18 @@ constexpr bool has_event(TickEvent events, TickEvent event) noexcept {
 /// Whether the sample of this tick was usable.
 enum class TickStatus : std::uint8_t {
   ok,           ///< a fresh sample
-  stale,        ///< no new sample, as the device says: the force is held for 4 ms, then ramps down to zero
-  /// Not finite, or where no hand can be after the last ones (ForceLimits::max_acceleration and max_speed: a pen that
-  /// jumps), or of a sensor that stands still (max_standstill). The force ramps down to zero.
+  stale,        ///< the device reports no new sample: the force is held for 4 ms, then ramps down to zero
+  /// A position that is not finite, that no hand can have reached (a jump: ForceLimits::max_acceleration, max_speed),
+  /// or from a sensor that stands still (max_standstill): the force ramps down to zero.
   bad_sample,
   device_fault,  ///< reported by the device: the force ramps down to zero
-  /// 50 samples running, each later than the one before by 300 periods of the servo rate: their times are not in
-  /// seconds, or the loop is not at its rate. Dampers know no velocity then: the force ramps down to zero.
+  /// 50 samples in a row, each 300 periods of the servo rate later than the last: the times are not in seconds, or the
+  /// loop does not run at its rate. Dampers then have no velocity to go by: the force ramps down to zero.
   bad_clock,
-  bad_law  ///< the guidance law threw, or its force is not finite: the force ramps down, and sets in again with the law
+  bad_law  ///< the guidance law threw, or its force is not finite: the force ramps down, and returns with the law
 };
 
-/// Whether the sample says where the pen is: the law has nothing to do with that.
+/// Whether the sample says where the pen is, which a failing guidance law does not affect.
 constexpr bool has_position(TickStatus status) noexcept {
   return status == TickStatus::ok || status == TickStatus::bad_law;
 }
@@ -56,26 +56,26 @@ constexpr bool has_position(TickStatus status) noexcept {
 /// "ok", "stale", "bad_sample", "device_fault", "bad_clock", "bad_law".
 const char* to_string(TickStatus status) noexcept;
 
-/// Why a pen on the paper is not guided, or by less than it should be, for a display to show.
+/// Why a pen on the paper is not guided, or less than it should be, for a display to show.
 enum class WritingHint : std::uint8_t {
-  none,             ///< it is guided, not on the paper, or back on it once all is written
+  none,             ///< guided, not on the paper, or back on it once everything is written
   write,            ///< at the start of the stroke that is due: write on
   too_far,          ///< too far from the start: `to_start` says where it is
   at_end,           ///< at the stroke's end
   in_middle,        ///< in the middle of the stroke
   wrong_direction,  ///< at the start, but moving another way
-  another_stroke,   ///< moving as if it began another stroke
+  another_stroke,   ///< moving as if to begin another stroke
   off_stroke,       ///< writing, but too far from the stroke or pulled aside: `contact.closest` is where to return
-  lift_first,       ///< lift the pen first: the stroke before has just been finished
-  warm_motors       ///< it is guided, but the motors' heat leaves less force than that takes: let them rest
+  lift_first,       ///< lift the pen first: the previous stroke has just been finished
+  warm_motors       ///< guided, but the warm motors permit less force than that takes: let them rest
 };
 
 /// "", "write on", "too far from the start", "at the stroke's end", "in the middle of the stroke", "wrong direction",
 /// "another stroke's start", "too far from the stroke", "lift the pen first", "the motors are warm: less force".
 const char* to_string(WritingHint hint) noexcept;
 
-/// The words for people, with the distance and the direction to the start [m, page; y up] where that is where to go:
-/// "too far from the start: 12 mm to the upper left", "at the stroke's end: the start is 30 mm to the left".
+/// The hint in words, with the distance and direction to the start [m, page; y up] if the pen should go there: "too far
+/// from the start: 12 mm to the upper left", "at the stroke's end: the start is 30 mm to the left".
 std::string hint_text(WritingHint hint, const Point& to_start);
 
 /// Result of one servo tick.
@@ -83,12 +83,12 @@ struct HapticTick {
   double time = 0.0;                                      ///< sample time [s]
   TickStatus status = TickStatus::ok;                     ///< whether the sample was usable
   InteractionState state = InteractionState::separation;  ///< after this sample
-  TickEvent events = TickEvent::none;                     ///< what this sample brought about
+  TickEvent events = TickEvent::none;                     ///< what happened with this sample
   int character = 0;  ///< index of the active character; the number of characters once all are written
   int stroke = 0;     ///< index of the active stroke; the number of strokes from the end of the last one until the lift
   Eigen::Vector3d device_point = Eigen::Vector3d::Zero();  ///< haptic interface point, page frame [m]
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< virtual pen tip, page frame [m]
-  double penetration = 0.0;                                ///< of the device point into the paper [m]
+  double penetration = 0.0;                                ///< depth of the device point in the paper [m]
   StrokeContact contact;  ///< valid in the writing state, in the tick that leaves it, and for hints on the stroke
   double covered = 0.0;   ///< share of the stroke written last that was covered in order [1]
   WritingHint hint = WritingHint::none;  ///< why a pen on the paper is not guided
@@ -101,7 +101,7 @@ struct HapticTick {
   Eigen::Vector3d viscous = Eigen::Vector3d::Zero();
   double assistance = 1.0;    ///< factor on the guidance, from the assist policy [1]
   double energy_given = 0.0;  ///< net energy delivered to the hand, as observed; 0 without a budget [J]
-  double heat = 0.0;  ///< of the motors; 1: in equilibrium at the continuous force; 0 without thermal budget [1]
+  double heat = 0.0;  ///< heat of the motors; 1: in equilibrium at the continuous force; 0 without thermal budget [1]
   Eigen::Vector3d page_force = Eigen::Vector3d::Zero();  ///< the force as sent, on the pen, page axes [N]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< the force as sent, to be written to the device, device axes [N]
 };

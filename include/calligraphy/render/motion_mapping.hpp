@@ -48,8 +48,8 @@ struct MotionMapping {
 void validate(const MotionMapping& mapping);
 
 /// Upright page [m] in the x-y plane of the device, as in the paper's experiments (sec. 7.2). The centre of the page
-/// lies at the device origin for every scale K_S; with K_S = 2 the pen on the page moves twice as far as the device. A
-/// wrong scale is refused by what uses the mapping (HapticRenderer).
+/// lies at the device origin for every scale K_S; with K_S = 2 the pen on the page moves twice as far as the device. An
+/// invalid scale is rejected where the mapping is used (HapticRenderer).
 MotionMapping upright_page(double width, double height, double scale = 1.0);
 
 /// Page flat on the desk: page y points away from the user (-z of the device), page z up. Otherwise as upright_page().

@@ -47,7 +47,7 @@ double stiffness_for_any_hand(const SampledLoop& loop, double velocity_cutoff, d
 
 /// A bound on the stiffness of the wall, with its validity.
 struct StiffnessBound {
-  double value = 0.0;    ///< of the wall's stiffness [N/m]
+  double value = 0.0;    ///< bound on the wall's stiffness [N/m]
   std::string formula;   ///< as text, in the symbols of SampledLoop
   std::string validity;  ///< one line: where it holds and what it does not model
 };
