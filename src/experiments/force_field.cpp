@@ -15,16 +15,16 @@
 namespace calligraphy {
 namespace {
 
-/// What the pen finds at a place.
+/// What pulls the pen at a place.
 struct Pull {
   Point force;
   bool passed_feature;
 };
 using Field = std::function<Pull(const Point&)>;
 
-/// Of the pen that writes towards the place where the field is asked for [m].
+/// Step of the pen that writes up to the progress at which the field is computed [m].
 constexpr double writing_step = 1e-4;
-/// It goes on this far beyond each feature point, since the plane as printed must be crossed [m].
+/// The pen goes this far beyond each feature point, since the plane as printed must be crossed [m].
 constexpr double overshoot = 2e-4;
 
 Pull pull(const StrokeContact& contact, const Point& tip, double stiffness) {
@@ -32,7 +32,7 @@ Pull pull(const StrokeContact& contact, const Point& tip, double stiffness) {
           contact.passed_feature};
 }
 
-/// The stroke as it is once a pen on its middle line has come as far as `progress`.
+/// The state of the stroke once a pen on its middle line has come as far as `progress`.
 ActiveStroke written(const Stroke& stroke, const Placement& placement, double progress, const StrokeOptions& options) {
   ActiveStroke active;
   active.load(stroke, placement);
@@ -100,8 +100,7 @@ struct Crossing {
   bool passes_feature;
 };
 
-/// Where the force jumps between two places, by halving: a continuous change shrinks with the interval, a jump does
-/// not.
+/// Bisects to where the force jumps between two places: a continuous change shrinks with the interval, a jump does not.
 std::optional<Crossing> crossing(const Field& field, Point begin, Point end, Pull at_begin, Pull at_end,
                                  double min_jump) {
   if ((at_end.force - at_begin.force).norm() < min_jump) return {};
@@ -117,13 +116,13 @@ std::optional<Crossing> crossing(const Field& field, Point begin, Point end, Pul
   return Crossing{0.5 * (begin + end), jump, at_begin.passed_feature != at_end.passed_feature};
 }
 
-/// What is found at each place of a square, and the lines across which it jumps.
+/// The pull at each place of a square, and the lines across which it jumps.
 class Scan {
  public:
   Scan(const Field& field, const ForceField& square, const ForceFieldOptions& options)
       : field_(field), square_(square), options_(options) {
     for (int row = 0; row < square.columns; ++row) {
-      tell(row);
+      report_progress(row);
       for (int column = 0; column < square.columns; ++column) pulls_.push_back(field(square.place(column, row)));
     }
   }
@@ -135,7 +134,7 @@ class Scan {
     const int n = square_.columns;
     std::vector<std::optional<Crossing>> right(pulls_.size()), above(pulls_.size());
     for (int row = 0; row < n; ++row) {
-      tell(n + row);
+      report_progress(n + row);
       for (int column = 0; column < n; ++column) {
         if (column + 1 < n) right[index(column, row)] = between(column, row, column + 1, row);
         if (row + 1 < n) above[index(column, row)] = between(column, row, column, row + 1);
@@ -155,8 +154,8 @@ class Scan {
     return jumps;
   }
 
-  /// Rows, of which there are once as many for the forces and once as many for the jumps.
-  void tell(int rows_done) const {
+  /// Every row counts twice: once for the forces and once for the jumps.
+  void report_progress(int rows_done) const {
     if (options_.progress) options_.progress(0.5 * rows_done / square_.columns);
   }
 
@@ -240,7 +239,7 @@ ForceField guidance_field(const PlacedCharacter& placed, int stroke, double prog
   field.jumps = scan.jumps();
   const std::vector<StrokeElement> elements = place_elements(active, placed.placement);
   for (ForceJump& jump : field.jumps) jump.from_stroke = distance_to(elements, 0.5 * (jump.begin + jump.end));
-  scan.tell(2 * options.columns);
+  scan.report_progress(2 * options.columns);
   return field;
 }
 

@@ -34,13 +34,13 @@ constexpr const char* jump_red = "#e00000";
 constexpr const char* passage_orange = "#d97800";
 constexpr const char* pen_yellow = "#ffd000";
 
-/// From no force to `fullest`: light enough for dark arrows.
+/// Colours from no force to `fullest`, light enough for dark arrows.
 constexpr std::array colours = {"#ffffff", "#f4f8ec", "#e6f2d9", "#d6ebc9", "#c2e2be",
                                 "#abd8b9", "#95cdb9", "#82c2bc", "#74b5be", "#6aa7bd"};
 
 double rounded(double pixels) { return std::round(10.0 * pixels) / 10.0; }
 
-/// To a tenth of a pixel: half the text.
+/// Rounds to a tenth of a pixel, which halves the text.
 Point rounded(const Point& point) { return {rounded(point.x()), rounded(point.y())}; }
 
 /// "x,y", for a path.

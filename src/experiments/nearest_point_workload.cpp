@@ -29,7 +29,7 @@ double diagonal(const Curve& curve) {
   return (high - low).norm();
 }
 
-/// What a query is drawn from: a point has no size of its own.
+/// What a query is drawn from; a point, which has no size of its own, has size 1.
 struct Target {
   Curve curve;
   double size;
@@ -44,7 +44,7 @@ double power_of_ten(int exponent) {
   return exponent < 0 ? 1.0 / power : power;
 }
 
-/// Nothing in one case of four, else 1e-15 to 1e-2.
+/// Zero in one case out of four, otherwise 1e-15 to 1e-2.
 double slight(RandomPoints& random) {
   const bool none = random.index(4) == 0;
   const int exponent = 2 + static_cast<int>(random.index(14));
@@ -53,7 +53,7 @@ double slight(RandomPoints& random) {
 
 Point perpendicular(const Point& vector) { return {-vector.y(), vector.x()}; }
 
-/// The vertices turned, scaled by 0.5 to 2, mirrored in one case of two, and moved.
+/// The vertices turned, scaled by 0.5 to 2, mirrored in one case out of two, and moved.
 Curve placed(RandomPoints& random, Vertices vertices) {
   const Point along = random.between(0.5, 2.0) * random.direction();
   const Point across = random.index(2) == 0 ? perpendicular(along) : -perpendicular(along);
@@ -67,7 +67,7 @@ Vertices moved_slightly(RandomPoints& random, Vertices vertices, double by) {
   return vertices;
 }
 
-// Curves. `i` counts the curves of a workload, so that each kind of a mixed one occurs.
+// Curves. `i` counts the curves of a workload, so that every kind in a mixed one occurs.
 
 Curve random_curve(RandomPoints& random, int) {
   Vertices vertices;
@@ -143,7 +143,7 @@ Curve symmetric_s(RandomPoints& random, int) {
   return {{-end, -handle, handle, end}};
 }
 
-/// The cubic that is usual for an arc round the origin; 25 to 180 degrees. With T = tan(angle / 4) all is rational.
+/// The usual cubic for an arc round the origin, 25 to 180 degrees. With T = tan(angle / 4) everything is rational.
 Curve arc(RandomPoints& random, int) {
   const double tangent = random.between(0.11, 1.0), square = tangent * tangent;
   const double cosine = (1.0 - square) / (1.0 + square), sine = 2.0 * tangent / (1.0 + square);
@@ -165,7 +165,7 @@ Curve small(RandomPoints& random, int i) { return scaled(random_curve(random, i)
 
 // Queries.
 
-/// In the control points' box, a quarter of the size wider on each side.
+/// In the box of the control points, widened by a quarter of the size on each side.
 Point in_box(RandomPoints& random, const Target& target) {
   Point low = target.curve.control_points[0], high = low;
   for (const Point& vertex : target.curve.control_points) {
@@ -219,7 +219,7 @@ Point near_origin(RandomPoints& random, const Target& target) {
   return slight(random) * target.size * random.in_disc();
 }
 
-/// At a centre of curvature no further than ten sizes, or slightly beside it: three closest points are one there.
+/// At a centre of curvature no further than ten sizes, or slightly beside it: three closest points coincide there.
 Point near_centre_of_curvature(RandomPoints& random, const Target& target) {
   const Bezier<2> first = target.curve.hodograph();
   const Bezier<1> second = first.hodograph();
@@ -234,7 +234,7 @@ Point near_centre_of_curvature(RandomPoints& random, const Target& target) {
   return in_box(random, target);
 }
 
-/// 1 to 1e6 sizes away, each power of ten alike.
+/// 1 to 1e6 sizes away, each power of ten equally often.
 Point far(RandomPoints& random, const Target& target) {
   const double sizes = power_of_ten(static_cast<int>(random.index(6))) * random.between(1.0, 10.0);
   return target.curve.point(0.5) + sizes * target.size * random.direction();

@@ -49,7 +49,7 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
   return wanted + damping_;
 }
 
-/// Against the motion of this step, for what has been delivered beyond the work of the field.
+/// Damps the motion of this step, for the energy delivered beyond the work of the field.
 void PassivityController::damp(const ObservedStep& step, const Eigen::Vector3d& field) noexcept {
   const Eigen::Vector3d beyond = step.force - 0.5 * (field_ + field);
   surplus_in_plane_ = std::max(0.0, surplus_in_plane_ + beyond.head<2>().dot(step.way.head<2>()));

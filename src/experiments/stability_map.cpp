@@ -22,7 +22,7 @@ namespace {
 
 constexpr double at_rest = 1e-7;         ///< from peak to peak, a hundredth of a coarse encoder's step [m]
 constexpr double shrunk = 0.95;          ///< in half of the time
-constexpr double still = 0.99;           ///< in the last quarter: an approach to a smaller swing stands still by then
+constexpr double still = 0.99;           ///< in the last quarter: one that settles to a smaller swing is still by then
 constexpr double out_of_reach = 1.0;     ///< no pen is there [m]
 constexpr int windows = 16;              ///< of the time, in each of which the swing is measured
 constexpr double precision = 1.02;       ///< of the largest stable stiffness
@@ -43,7 +43,7 @@ Capabilities pushed(Capabilities device) {
   return device;
 }
 
-/// Samples as they come over a bad line.
+/// Delivers samples over a bad line, which loses or reorders some.
 class Line {
  public:
   Line(const WallContact& contact, double position)
@@ -53,7 +53,7 @@ class Line {
     if (lost_ > 0.0 && random_.next() < lost_) return last_;
     if (std::exchange(is_waiting_, false)) return last_ = waiting_;  // the older of the two, one tick late
     if (reordered_ > 0.0 && has_last_ && random_.next() < reordered_) {
-      // This one comes after the next: until then there is the last again.
+      // This one arrives after the next: until then the last one is used again.
       is_waiting_ = true;
       waiting_ = position;
       return last_;
@@ -69,7 +69,7 @@ class Line {
   Random random_{1};
 };
 
-/// The force of the wall, which may push and not pull.
+/// The force of the wall, which pushes but never pulls.
 class Wall {
  public:
   Wall(const SampledLoop& loop, double stiffness, double position)
@@ -84,7 +84,7 @@ class Wall {
   double stiffness_, damping_, before_;
 };
 
-/// From window to window, so that a swing which merely varies does not pass, by enough in all, and to the end.
+/// Whether swings shrink from window to window, so that mere variation does not pass, by enough overall and to the end.
 bool shrinks(std::span<const double> swings) {
   const bool falls = std::is_sorted(swings.rbegin(), swings.rend(), std::less_equal<>());
   return falls && swings.back() < shrunk * swings.front() && swings.back() < still * swings[swings.size() / 2];
@@ -155,7 +155,7 @@ std::vector<double> stiffnesses_of(const StabilityMapOptions& options) {
 
 using Test = std::function<bool(const WallContactResult&)>;
 
-/// Between the last that passes and the first that does not, by halves of the logarithm.
+/// Bisects, on a logarithmic scale, between the last stiffness that passes and the first that does not.
 double largest(const StabilityLine& line, const std::vector<WallContactResult>& outcomes, const StabilityMap& map,
                const WallContact& contact, const Test& passes) {
   const auto first = std::find_if_not(outcomes.begin(), outcomes.end(), passes) - outcomes.begin();
@@ -170,10 +170,10 @@ double largest(const StabilityLine& line, const std::vector<WallContactResult>& 
   return good;
 }
 
-/// What became of a pen on each stiffness of a line, without and with passivity control.
+/// The outcome for a pen at each stiffness of a line, without and with passivity control.
 using Trials = std::array<std::vector<WallContactResult>, 2>;
 
-/// Many short pieces of work, so that whoever waits for them can give up soon.
+/// The work is split into many short pieces, so that a caller can cancel it soon.
 void try_all(const std::vector<StabilityLine*>& lines, const StabilityMap& map,
              const std::function<void(double)>& progress, std::vector<Trials>& trials) {
   const std::size_t stiffnesses = map.stiffnesses.size();

@@ -22,7 +22,7 @@ constexpr std::size_t panel_columns = 3;                                       /
 constexpr double panels_left = 0.078, panels_right = 0.99, panel_gap = 0.025;  // of the panels, shares of the picture
 constexpr double panels_top = 0.88, bottom = 0.085, between = 0.115;
 
-/// What a cell of the map may be.
+/// A kind of cell in the map.
 struct Kind {
   bool stable, controlled_stable;
   const char* colour;
@@ -49,7 +49,7 @@ std::string quoted(std::string text) {
   return "'" + text + "'";
 }
 
-/// Adjoining cells of one kind in a column, as one rectangle a line: centre, corners.
+/// Adjoining cells of one kind in a column as one rectangle, a line each: centre, corners.
 std::string rectangles(const StabilitySweep& sweep, const Kind& kind, const std::vector<double>& stiffnesses) {
   const double half = std::sqrt(stiffnesses[1] / stiffnesses[0]);
   std::string lines;
@@ -70,7 +70,7 @@ std::string rectangles(const StabilitySweep& sweep, const Kind& kind, const std:
   return lines;
 }
 
-/// A step across each column; none where the bound is zero, which no logarithm shows.
+/// A step across each column; none where the bound is zero, which a logarithmic axis cannot show.
 std::string steps(const StabilitySweep& sweep, double StabilityLine::*bound) {
   std::string lines;
   for (std::size_t i = 0; i < sweep.lines.size(); ++i) {
@@ -101,13 +101,13 @@ std::string place(std::size_t panel, std::size_t rows) {
          "\nset tmargin at screen " + numeral(end) + "\nset bmargin at screen " + numeral(end - height) + "\n";
 }
 
-/// Data blocks and the plot of one panel. The first names all that may be seen in any.
+/// Data blocks and the plot of one panel. The first panel has the legend for all of them.
 std::string panel(const StabilitySweep& sweep, std::size_t index, const std::vector<double>& stiffnesses) {
   std::string text, plots;
   const auto add = [&](const std::string& data, const std::string& drawn, const char* title) {
     if (data.find_first_not_of('\n') == std::string::npos && index > 0) return;
     const std::string block = "$data" + std::to_string(index) + "_" + std::to_string(plots.size());
-    // A series without a point would be refused: one outside the range stands for it in the legend.
+    // gnuplot refuses a series without points: one outside the range stands for it in the legend.
     text += block + " << END\n" + (data.empty() ? "-9 1 -9 -9 1 1\n" : data) + "END\n";
     plots += (plots.empty() ? "" : ", ") + block + " " + drawn + (index == 0 ? " title " + quoted(title) : " notitle");
   };

@@ -11,20 +11,20 @@
 namespace calligraphy {
 namespace {
 
-/// Length of stroke from one turning point of the stray to the next [m].
-constexpr double stray_length = 0.01;
+/// Length of stroke from one turning point of the wobble to the next [m].
+constexpr double wobble_length = 0.01;
 
-/// A smooth way through points drawn at even distances: it rests at each, with neither speed nor acceleration.
-class Stray {
+/// A smooth deviation through random points at even distances: it rests at each, with neither speed nor acceleration.
+class Wobble {
  public:
-  Stray(RandomPoints& random, double length, double most) {
+  Wobble(RandomPoints& random, double length, double most) {
     const double amplitude = most * random.next();
-    const auto count = static_cast<std::size_t>(length / stray_length) + 2;
+    const auto count = static_cast<std::size_t>(length / wobble_length) + 2;
     for (std::size_t i = 0; i < count; ++i) turning_points_.push_back(amplitude * random.in_disc());
   }
 
   Point at(double arc) const {
-    const double scaled = arc / stray_length;
+    const double scaled = arc / wobble_length;
     const auto i = std::min(static_cast<std::size_t>(scaled), turning_points_.size() - 2);
     const double x = scaled - static_cast<double>(i);
     const double share = x * x * x * (10.0 + x * (6.0 * x - 15.0));
@@ -50,13 +50,13 @@ std::vector<std::vector<Point>> elements_of(const Stroke& stroke, double em) {
 std::vector<Point> path_along(const Stroke& stroke, const StrokeQueryOptions& options, RandomPoints& random) {
   ActiveStroke active;
   active.load(stroke, {Point::Zero(), options.em});
-  const Stray stray(random, active.length(), options.wobble);
+  const Wobble wobble(random, active.length(), options.wobble);
   const double step = options.speed / options.rate;
   std::vector<Point> path;
   for (int tick = 0;; ++tick) {
     const double arc = tick * step;
     if (arc > active.length()) return path;
-    path.push_back(active.at(arc).point + stray.at(arc));
+    path.push_back(active.at(arc).point + wobble.at(arc));
   }
 }
 

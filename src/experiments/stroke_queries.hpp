@@ -1,4 +1,4 @@
-// Whole strokes with a pen path along each, for testing what tracks a pen from tick to tick.
+// Whole strokes with a pen path along each, for testing methods that track a pen from tick to tick.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double em = 0.04;  ///< edge of a character's square [m]
 
-/// 90 % of the values are at most this for a share of 0.9. Reorders them; 0 of none.
+/// The value that this share of the values does not exceed. Reorders them; 0 if there are none.
 double percentile(std::vector<double>& values, double share) {
   if (values.empty()) return 0.0;
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
@@ -26,12 +26,12 @@ double percentile(std::vector<double>& values, double share) {
 
 bool is_real(const std::string& workload) { return workload.starts_with("real strokes"); }
 
-/// A curve and what is asked of it, with the right answers.
+/// A curve and its queries, with the exact answers.
 struct Task {
   StrokeElement element;
   std::vector<Point> queries;
   std::vector<double> distances;  ///< exact
-  double size;                    ///< of the curve; of a point, 1
+  double size;                    ///< of the curve; 1 for a point
 };
 
 struct Workload {
@@ -52,7 +52,7 @@ Workload prepared(const NearestPointWorkload& workload) {
   return result;
 }
 
-/// Asks one query after the other, each from the last answer; `use` gets each answer and its place in the task.
+/// Answers one query after another, each from the last answer; `use` gets each answer and its place in the task.
 template <typename Use>
 void ask(const Task& task, const NearestPointOptions& options, const Use& use) {
   double last = 0.5;
@@ -73,7 +73,7 @@ std::vector<double> errors_of(const Workload& workload, const NearestPointOption
   return errors;
 }
 
-/// For all queries of a workload.
+/// Time for all queries of a workload [s].
 double time_of(const Workload& workload, const NearestPointOptions& options) {
   return seconds_of([&] {
     double sum = 0.0;
@@ -84,7 +84,7 @@ double time_of(const Workload& workload, const NearestPointOptions& options) {
   });
 }
 
-/// The same, all queries to a curve at once.
+/// Likewise, with all queries to a curve in one call [s].
 double batch_time_of(const Workload& workload, const NearestPointOptions& options) {
   std::vector<NearestPoint> results;
   for (const Task& task : workload.tasks) results.resize(std::max(results.size(), task.queries.size()));
@@ -98,7 +98,7 @@ double batch_time_of(const Workload& workload, const NearestPointOptions& option
   });
 }
 
-/// Seconds of each round.
+/// Time of each round [s].
 struct Rounds {
   std::vector<double> one_by_one, batch;
 };
@@ -107,7 +107,7 @@ double per_query(std::vector<double> seconds, double share, std::size_t count) {
   return 1e9 * percentile(seconds, share) / static_cast<double>(count);
 }
 
-void judge(std::vector<double> errors, NearestPointCost& cost) {
+void summarise(std::vector<double> errors, NearestPointCost& cost) {
   const auto is_wrong = [](double error) { return !(error <= wrong_branch); };
   cost.wrong =
       static_cast<double>(std::count_if(errors.begin(), errors.end(), is_wrong)) / static_cast<double>(errors.size());
@@ -122,12 +122,12 @@ NearestPointCost cost_of(std::string queries, const std::vector<double>& errors,
   cost.ns = per_query(rounds.one_by_one, 0.5, errors.size());
   cost.ns_p90 = per_query(rounds.one_by_one, 0.9, errors.size());
   cost.batch_ns = per_query(rounds.batch, 0.5, errors.size());
-  judge(errors, cost);
+  summarise(errors, cost);
   return cost;
 }
 
-/// Several workloads as one. Times are means of the workloads' own, so that what disturbs one of them in a round does
-/// not count against all.
+/// Several workloads as one. Times are means over the workloads, so that a disturbance of one in a round does not count
+/// against all.
 struct Pool {
   NearestPointCost sum;
   std::vector<double> errors;
@@ -146,7 +146,7 @@ struct Pool {
     mean.ns /= count;
     mean.ns_p90 /= count;
     mean.batch_ns /= count;
-    judge(errors, mean);
+    summarise(errors, mean);
     return mean;
   }
 };
@@ -192,13 +192,13 @@ std::vector<NearestPointTradeoff> nearest_point_tradeoff(std::span<const Charact
   drawing.rate = options.rate;
   drawing.speed = options.speed;
   drawing.seed = options.seed;
-  const PennedStrokes drawn = drawn_strokes(stroke_queries(characters, drawing));
-  const std::vector<PennedStrokes> groups = in_groups(drawn);
+  const TracedStrokes drawn = drawn_strokes(stroke_queries(characters, drawing));
+  const std::vector<TracedStrokes> groups = in_groups(drawn);
   const double step = options.speed / options.rate;
   const std::vector<DrawnCurve> curves = drawn_curves(drawn, step), arcs = gentle_arcs(step);
 
   const std::vector<NearestPointSetting> settings = nearest_point_settings();
-  // Per setting; of each workload, then of each group of strokes.
+  // By setting, then by workload followed by group of strokes.
   const std::size_t parts = workloads.size() + groups.size();
   std::vector<std::vector<Rounds>> rounds(settings.size(), std::vector<Rounds>(parts));
   const std::size_t to_measure = static_cast<std::size_t>(options.rounds) * parts * settings.size();
@@ -206,7 +206,7 @@ std::vector<NearestPointTradeoff> nearest_point_tradeoff(std::span<const Charact
   for (int round = 0; round < options.rounds; ++round) {
     for (std::size_t w = 0; w < parts; ++w) {
       for (std::size_t i = 0; i < settings.size(); ++i) {
-        // Another one begins in each round, so that none always follows the same.
+        // Each round begins with another setting, so that none always follows the same one.
         const std::size_t s = (i + static_cast<std::size_t>(round)) % settings.size();
         const NearestPointOptions& own = settings[s].options;
         Rounds& times = rounds[s][w];

@@ -14,7 +14,7 @@
 namespace calligraphy {
 namespace {
 
-/// Nearest point over all elements.
+/// The nearest point of all elements.
 NearestPoint over_all(const std::vector<StrokeElement>& elements, const Point& query,
                       const NearestPointOptions& options) {
   NearestPoint nearest = nearest_point(elements.front(), query, options);
@@ -27,8 +27,8 @@ NearestPoint over_all(const std::vector<StrokeElement>& elements, const Point& q
 
 /// Follows the pen along each stroke; `use` gets the stroke, the tick and the closest point.
 template <typename Use>
-void follow(const PennedStrokes& strokes, const NearestPointOptions& options, const Use& use) {
-  for (const PennedStroke& stroke : strokes) {
+void follow(const TracedStrokes& strokes, const NearestPointOptions& options, const Use& use) {
+  for (const TracedStroke& stroke : strokes) {
     if (options.method == NearestPointMethod::tracked) {
       StrokeTracker tracker(stroke.elements, options.tolerance);
       for (std::size_t i = 0; i < stroke.path.size(); ++i) use(stroke, i, tracker.update(stroke.path[i]).closest);
@@ -55,10 +55,10 @@ DrawnCurve arc(double radius, double offset, double step) {
 
 }  // namespace
 
-PennedStrokes drawn_strokes(const std::vector<StrokeQueries>& queries) {
-  PennedStrokes strokes;
+TracedStrokes drawn_strokes(const std::vector<StrokeQueries>& queries) {
+  TracedStrokes strokes;
   for (const StrokeQueries& each : queries) {
-    PennedStroke stroke;
+    TracedStroke stroke;
     for (const auto& element : each.elements) {
       stroke.elements.push_back(prepare_element(element));
       stroke.size = std::max(stroke.size, stroke.elements.back().size());
@@ -72,9 +72,9 @@ PennedStrokes drawn_strokes(const std::vector<StrokeQueries>& queries) {
   return strokes;
 }
 
-std::vector<PennedStrokes> in_groups(const PennedStrokes& strokes) {
+std::vector<TracedStrokes> in_groups(const TracedStrokes& strokes) {
   constexpr std::size_t size = 4;
-  std::vector<PennedStrokes> groups;
+  std::vector<TracedStrokes> groups;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     if (i % size == 0) groups.emplace_back();
     groups.back().push_back(strokes[i]);
@@ -82,26 +82,26 @@ std::vector<PennedStrokes> in_groups(const PennedStrokes& strokes) {
   return groups;
 }
 
-std::vector<double> tick_errors(const PennedStrokes& strokes, const NearestPointOptions& options) {
+std::vector<double> tick_errors(const TracedStrokes& strokes, const NearestPointOptions& options) {
   std::vector<double> errors;
-  follow(strokes, options, [&errors](const PennedStroke& stroke, std::size_t i, const NearestPoint& closest) {
+  follow(strokes, options, [&errors](const TracedStroke& stroke, std::size_t i, const NearestPoint& closest) {
     errors.push_back(std::abs(closest.distance - stroke.distances[i]) / stroke.size);
   });
   return errors;
 }
 
-double tick_time(const PennedStrokes& strokes, const NearestPointOptions& options) {
+double tick_time(const TracedStrokes& strokes, const NearestPointOptions& options) {
   return seconds_of([&] {
     double sum = 0.0;
     follow(strokes, options,
-           [&sum](const PennedStroke&, std::size_t, const NearestPoint& closest) { sum += closest.parameter; });
+           [&sum](const TracedStroke&, std::size_t, const NearestPoint& closest) { sum += closest.parameter; });
     return sum;
   });
 }
 
-std::vector<DrawnCurve> drawn_curves(const PennedStrokes& strokes, double step) {
+std::vector<DrawnCurve> drawn_curves(const TracedStrokes& strokes, double step) {
   std::vector<DrawnCurve> curves;
-  for (const PennedStroke& stroke : strokes) {
+  for (const TracedStroke& stroke : strokes) {
     double end = 0.0;
     std::size_t tick = 0;
     for (const StrokeElement& element : stroke.elements) {

@@ -18,7 +18,7 @@ using gnuplot::numeral;
 
 constexpr double to_millimetres = 1e3;
 constexpr double percent = 100.0;
-constexpr double min_error = 1e-17;  ///< what is drawn for no error at all
+constexpr double min_error = 1e-17;  ///< drawn for no error at all
 
 constexpr const char* style =
     "set grid back linetype 1 linecolor rgb '#dcdcdc' linewidth 0.5\n"
@@ -29,7 +29,7 @@ struct MethodStyle {
   const char* colour;
   int marker;
   const char* label;  ///< where the setting stands beside its point
-  double across, up;  ///< what a label takes of the axes [decades]
+  double across, up;  ///< size of a label along the axes [decades]
 };
 constexpr std::array methods = {
     MethodStyle{NearestPointMethod::exact, "#0072b2", 7, "right offset -0.8,-0.1", 0.3, 0.6},
@@ -56,7 +56,7 @@ using Cost = NearestPointCost NearestPointTradeoff::*;
 /// Where a setting is drawn.
 struct Mark {
   double ns, largest, p99;
-  std::vector<std::string> names;  ///< also of later settings that lie on it; none where they lie on another
+  std::vector<std::string> names;  ///< also of later settings that overlap it; empty if it overlaps an earlier one
 };
 
 bool overlap(const Mark& a, const Mark& b, const MethodStyle& method) {

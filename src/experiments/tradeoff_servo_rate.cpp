@@ -15,7 +15,7 @@
 namespace calligraphy {
 namespace {
 
-/// Faster than any rate of force that a loop here asks for [N/s].
+/// Higher than any force rate that a loop here asks for [N/s].
 constexpr double no_rate_limit = 1e9;
 
 // A pen lowered onto the paper and pressed there, as a writer does it.
@@ -57,7 +57,7 @@ bool comes_to_rest(const PracticePage& page, const Capabilities& capabilities, c
   return high - low < resting_swing;
 }
 
-/// The largest below which no stiffness that was tried is unstable, to 2 % [N/m].
+/// The largest stiffness below which none that was tried is unstable, to 2 % [N/m].
 double max_stable_stiffness(const PracticePage& page, const Capabilities& device, const GripImpedance& grip,
                             const RendererOptions& options, bool limit, const std::function<void()>& pause) {
   const auto stable = [&](double stiffness) {
@@ -126,11 +126,11 @@ std::vector<ServoRateTradeoff> servo_rate_tradeoff(std::span<const Character> ch
   require_above_zero("seeds", options.seeds, "");
   const Capabilities& device = device_profile(options.device);
   RendererOptions usual = RendererOptions::for_device(device);
-  usual.stiffness_check = StiffnessCheck::off;  // stability is what is asked here
+  usual.stiffness_check = StiffnessCheck::off;  // stability is what is measured here
   const PracticePage page = lay_out(characters.first(1)).front();
   double total = 0.0, done = 0.0;
   for (const double rate : options.rates) total += rate;
-  // Within a rate, which may take a minute, too.
+  // Also called within a rate, which may take a minute.
   const auto pause = [&] {
     if (options.progress) options.progress(done / total);
   };

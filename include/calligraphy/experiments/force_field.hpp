@@ -15,17 +15,17 @@ namespace calligraphy {
 /// What attracts the pen.
 enum class Attractor {
   active_stroke,  ///< the active stroke alone, from its current progress on
-  nearest_stroke  ///< the nearest stroke of the character: the ambiguity that active strokes are to remove
+  nearest_stroke  ///< the nearest stroke of the character: the ambiguity that active strokes are meant to remove
 };
 
 /// Rules and resolution of a force field.
 struct ForceFieldOptions {
   Attractor attractor = Attractor::active_stroke;  ///< what attracts the pen
-  StrokeOptions stroke;      ///< how it is followed; with nearest_stroke, feature planes do not count
-  double stiffness = 600.0;  ///< of the guidance where the attraction factor is 1 [N/m]
+  StrokeOptions stroke;      ///< how the stroke is followed; with nearest_stroke, feature planes do not count
+  double stiffness = 600.0;  ///< guidance stiffness where the attraction factor is 1 [N/m]
   int columns = 96;          ///< cells per edge of the square
   double min_jump = 0.1;     ///< smaller jumps of the force are omitted [N]
-  /// Called from time to time with the share completed. An exception that it throws ends the computation.
+  /// Called from time to time with the share completed. An exception thrown by it ends the computation.
   std::function<void(double)> progress = nullptr;
 };
 
@@ -41,10 +41,10 @@ struct ForceJump {
 /// The force on a pen at rest in each cell of a square.
 struct ForceField {
   Point corner = Point::Zero();  ///< lower left corner of the square [m, page]
-  double edge = 0.0;             ///< of the square [m]
+  double edge = 0.0;             ///< edge length of the square [m]
   int columns = 0;               ///< number of columns, and of rows
   std::vector<Point> forces;     ///< row by row, bottom row first [N, page]
-  std::vector<ForceJump> jumps;  ///< where the force steps, as segments of lines
+  std::vector<ForceJump> jumps;  ///< where the force jumps, as line segments
 
   /// Centre of a cell, where its force is evaluated [m, page].
   Point place(int column, int row) const noexcept;
@@ -64,9 +64,9 @@ ForceField guidance_field(const PlacedCharacter& placed, int stroke, double prog
 struct ForceFieldFigure {
   /// The force field under one set of rules.
   struct Panel {
-    std::string name;  ///< of the rules
+    std::string name;  ///< name of the rules
     bool fades_in;     ///< the guidance fades in where a feature point is passed
-    ForceField field;  ///< under these rules
+    ForceField field;  ///< the field under these rules
   };
   std::string name;           ///< "bend", "corner", "parallel", "crossed"
   std::string title;          ///< for people

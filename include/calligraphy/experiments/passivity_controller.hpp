@@ -7,7 +7,7 @@
 
 namespace calligraphy {
 
-/// What a passivity controller may do, and what it must know of the loop.
+/// What a passivity controller may do, and what it must know about the loop.
 struct PassivityOptions {
   double max_damping = 0.0;  ///< maximum damping injected; 0: no control [N s/m]
   int delay = 0;             ///< age of a sample when it is read, at most PassivityController::max_delay [ticks]
@@ -53,7 +53,7 @@ class PassivityController {
   double max_damping_ = 0.0;
   double period_ = 0.001;
   EnergyObserver observer_;
-  Eigen::Vector3d field_ = Eigen::Vector3d::Zero();  ///< desired in the tick before
+  Eigen::Vector3d field_ = Eigen::Vector3d::Zero();  ///< desired in the previous tick
   Eigen::Vector3d damping_ = Eigen::Vector3d::Zero();
   double surplus_in_plane_ = 0.0;  ///< not yet dissipated [J]
   double surplus_normal_ = 0.0;    ///< [J]

@@ -20,7 +20,7 @@ struct WallContact {
   double reordered = 0.0;   ///< share of the samples that are swapped with the next one
 };
 
-/// What a simulated contact with the wall came to.
+/// The outcome of a simulated contact with the wall.
 struct WallContactResult {
   /// The pen comes to rest: its peak-to-peak amplitude drops below 0.1 um, or decreases in each sixteenth of the second
   /// half of the time, by at least 5 % in total and at least 1 % in the last quarter.
@@ -49,14 +49,14 @@ struct StabilityLine {
   /// maximum if all are stable [N/m].
   double max_stable = 0.0;
   double controlled_max_stable = 0.0;             ///< likewise, with the controller [N/m]
-  double controlled_max_stable_below_peak = 0.0;  ///< as that, and the force stays below the peak [N/m]
+  double controlled_max_stable_below_peak = 0.0;  ///< likewise, with the force below the peak [N/m]
 };
 
 /// Variation of one property of the loop, all others kept constant.
 struct StabilitySweep {
-  std::string name;                  ///< of the property: "damping"
+  std::string name;                  ///< name of the property: "damping"
   std::string label;                 ///< the property with its unit, for people
-  std::vector<std::string> values;   ///< of the property, one per line
+  std::vector<std::string> values;   ///< values of the property, one per line
   std::vector<StabilityLine> lines;  ///< by increasing value
 };
 
@@ -67,13 +67,13 @@ struct StabilityMapOptions {
   int per_decade = 8;                  ///< number of stiffnesses per decade
   double min_stiffness = 10.0;         ///< lowest stiffness simulated [N/m]
   double max_stiffness = 1e5;          ///< highest stiffness simulated [N/m]
-  double coulomb_friction = 0.06;      ///< of loops with quantised positions; the others have none [N]
-  std::vector<double> dampings = {0.05, 0.1, 0.5, 2.0};     ///< viscous, of the grid [N s/m]
-  std::vector<double> rates = {500.0, 1000.0, 4000.0};      ///< of the servo loops of the grid [Hz]
-  std::vector<int> delays = {0, 1, 2, 5};                   ///< age of a sample when it is read, of the grid [ticks]
-  std::vector<double> encoder_steps = {0.0, 23e-6, 55e-6};  ///< of the grid [m]
-  std::vector<double> wall_dampings = {0.0, 1.0};           ///< of the grid [N s/m]
-  std::vector<GripImpedance> grips = {{0.0, 0.0, 0.0}, {0.1, 3.0, 300.0}};  ///< of the grid; all zero: no grip
+  double coulomb_friction = 0.06;      ///< friction of loops with quantised positions; the others have none [N]
+  std::vector<double> dampings = {0.05, 0.1, 0.5, 2.0};     ///< viscous dampings in the grid [N s/m]
+  std::vector<double> rates = {500.0, 1000.0, 4000.0};      ///< servo rates in the grid [Hz]
+  std::vector<int> delays = {0, 1, 2, 5};                   ///< ages of a sample when it is read, in the grid [ticks]
+  std::vector<double> encoder_steps = {0.0, 23e-6, 55e-6};  ///< encoder steps in the grid [m]
+  std::vector<double> wall_dampings = {0.0, 1.0};           ///< dampings of the wall in the grid [N s/m]
+  std::vector<GripImpedance> grips = {{0.0, 0.0, 0.0}, {0.1, 3.0, 300.0}};  ///< grips in the grid; all zero: no grip
   bool with_sweeps = true;                                                  ///< whether to vary one property at a time
   bool with_grid = true;                                                    ///< whether to simulate the grid
   std::function<void(double)> progress = nullptr;  ///< called from time to time with the share completed
@@ -82,7 +82,7 @@ struct StabilityMapOptions {
   static Capabilities point_mass();
 };
 
-/// Stable stiffnesses, simulated, beside the bounds of theory.
+/// Simulated stable stiffnesses, next to the bounds of theory.
 struct StabilityMap {
   Capabilities device;                 ///< as in the options
   WallContact contact;                 ///< as in the options

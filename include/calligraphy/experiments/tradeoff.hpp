@@ -37,7 +37,7 @@ struct NearestPointCost {
 
 /// What the user feels when moving a pen along curves, with the force K (closest - tip).
 struct PenFeel {
-  double max_step = 0.0;  ///< maximum change of the force per tick, that due to the pen's own motion included [N]
+  double max_step = 0.0;  ///< maximum change of the force per tick, including that due to the pen's own motion [N]
   double wrong = 0.0;     ///< share of the ticks on a wrong branch
 };
 
@@ -58,9 +58,9 @@ struct NearestPointTradeoff {
 struct NearestPointTradeoffOptions {
   int queries = 4000;                              ///< per workload (there are 19)
   int rounds = 21;                                 ///< each round runs every method on every workload
-  std::uint64_t seed = 1;                          ///< of the random queries and curves
+  std::uint64_t seed = 1;                          ///< seed of the random queries and curves
   double stiffness = 1000.0;                       ///< K [N/m]
-  double speed = 0.05;                             ///< of the pen [m/s]
+  double speed = 0.05;                             ///< speed of the pen [m/s]
   double rate = 1000.0;                            ///< ticks per second [Hz]
   std::function<void(double)> progress = nullptr;  ///< called from time to time with the share completed
 };
@@ -72,7 +72,7 @@ std::vector<NearestPointTradeoff> nearest_point_tradeoff(std::span<const Charact
 
 /// A simulated novice writing in closed loop at one servo rate.
 struct ServoRateTradeoff {
-  double rate = 0.0;  ///< of the servo loop [Hz]
+  double rate = 0.0;  ///< rate of the servo loop [Hz]
 
   double stiffness = 0.0;    ///< default paper stiffness at this rate [N/m]
   bool stable = false;       ///< a pen pressed onto this paper comes to rest
@@ -87,15 +87,15 @@ struct ServoRateTradeoff {
   double free_stiffness = 0.0;       ///< critical_stiffness() of the device released [N/m]
 
   double hard_stiffness = 0.0;    ///< half of unlimited_stiffness: usable at this rate [N/m]
-  double hard_penetration = 0.0;  ///< on such paper [m]
-  double hard_force_step = 0.0;   ///< on such paper [N]
+  double hard_penetration = 0.0;  ///< penetration into such paper [m]
+  double hard_force_step = 0.0;   ///< force step on such paper [N]
 };
 
 /// How servo_rate_tradeoff() measures.
 struct ServoRateTradeoffOptions {
-  std::vector<double> rates = {250.0, 500.0, 1000.0, 2000.0, 4000.0, 10000.0, 20000.0};  ///< of the servo loop [Hz]
+  std::vector<double> rates = {250.0, 500.0, 1000.0, 2000.0, 4000.0, 10000.0, 20000.0};  ///< servo rates [Hz]
   int seeds = 3;                   ///< how many times each character is written
-  std::uint64_t seed = 1;          ///< of the first writing of a character; each further one has the next
+  std::uint64_t seed = 1;          ///< for the first writing of a character; each further one uses the next seed
   std::string device = "desktop";  ///< name of a device profile
   std::function<void(double)> progress = nullptr;  ///< called from time to time with the share completed
 };
@@ -107,10 +107,10 @@ std::vector<ServoRateTradeoff> servo_rate_tradeoff(std::span<const Character> ch
 
 /// Control points rounded to a grid of 2^bits positions along each edge of the em square.
 struct CoordinateWidthTradeoff {
-  int bits = 0;            ///< of a stored coordinate
-  double step = 0.0;       ///< of the grid [em]
+  int bits = 0;            ///< bits of a stored coordinate
+  double step = 0.0;       ///< step of the grid [em]
   double max_error = 0.0;  ///< maximum distance between the original and the stored strokes, in both directions [em]
-  double rms_error = 0.0;  ///< over their length, in both directions [em]
+  double rms_error = 0.0;  ///< RMS over their length, in both directions [em]
   double bytes = 0.0;      ///< per character: packed coordinates, and one byte per stroke for its ID
 };
 
