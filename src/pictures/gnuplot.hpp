@@ -13,8 +13,8 @@ std::string numeral(double value);
 /// The beginning of a script: SVG of this size [px], on white.
 std::string svg_terminal(int width, int height);
 
-/// Runs a script and reads the picture that it draws. Numbers and the program's own words alone belong in a script: no
-/// text of a caller's.
+/// Runs a script and reads the picture that it draws. A script may contain only numbers and the program's own words, no
+/// text from a caller.
 /// @throws Error with gnuplot's message when it cannot be started or fails
 void draw(const std::string& script, pugi::xml_document& picture);
 

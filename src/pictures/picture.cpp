@@ -33,20 +33,20 @@ constexpr const char* start_red = "#e02020";
 // Relative to the em square.
 constexpr double stroke_width = 0.07;
 constexpr double trace_width = 0.022;
-constexpr double trace_share = 0.6;       ///< of the template's ink, so that its edge shows round the trace
+constexpr double trace_share = 0.6;       ///< of the template's ink width, so that its edge shows round the trace
 constexpr double longest_ink = 8.0;       ///< [em]
-constexpr double finest_detail = 0.0005;  ///< by which a drawn trace may differ from the recorded one
+constexpr double finest_detail = 0.0005;  ///< how far a drawn trace may differ from the recorded one
 
 constexpr std::size_t max_trace_points = 15000;  ///< about 200 kB of text
 
-/// What the pen left of a stroke, up to where it is now if that is not finished.
+/// What the pen has drawn of a stroke, up to its present position if the stroke is not finished.
 struct Trace {
   std::vector<Point> path;  ///< [em] of the character
   int stroke = 0;           ///< index within the character
   bool finished = false;
 };
 
-/// The traces of each character up to `active`, those of abandoned attempts left out.
+/// The traces of each character up to `active`, without those of abandoned attempts.
 std::vector<std::vector<Trace>> traces_until(const PracticePage& page, const Recording& recording, int active) {
   std::vector<std::vector<Trace>> result(static_cast<std::size_t>(active) + 1);
   Trace trace;                 // [m, page] until it is kept
@@ -128,14 +128,14 @@ std::vector<Point> thinned(const std::vector<Point>& path, double tolerance) {
   return result;
 }
 
-/// What is drawn of a trace [em].
+/// The drawn form of a trace [em].
 struct TraceShape {
   std::vector<Point> points;
   bool filled;  ///< the outline of ink, not a line
 };
 
-/// A line where the stroke is not finished, since its profile is that of the whole stroke, and where the pen went to
-/// and fro so long that the ink would be a blot.
+/// A trace becomes a line if its stroke is not finished, since the profile is that of the whole stroke, or if the pen
+/// went to and fro so long that the ink would be a blot.
 TraceShape shape_of(const Trace& trace, std::span<const Stroke> strokes, StrokeStyle style, double detail) {
   std::vector<Point> path = thinned(trace.path, detail);
   const bool known = trace.finished && trace.stroke >= 0 && trace.stroke < static_cast<int>(strokes.size());
@@ -145,7 +145,7 @@ TraceShape shape_of(const Trace& trace, std::span<const Stroke> strokes, StrokeS
   return {ink_outline(path, profile, detail), true};
 }
 
-/// Without detail that nobody sees, and with less of it where a picture of all would be too large.
+/// The shapes without invisible detail, and with less detail still if the picture would be too large.
 std::vector<std::vector<TraceShape>> shapes_of(std::vector<std::vector<Trace>> traces,
                                                const std::vector<std::vector<Stroke>>& strokes, StrokeStyle style) {
   for (std::vector<Trace>& of_character : traces) {
@@ -188,7 +188,7 @@ void draw_traces(pugi::xml_node root, const std::vector<TraceShape>& shapes, con
   }
 }
 
-/// The stroke of the active character that was active last; its last one once it is complete.
+/// The last active stroke of the active character; its last stroke once it is complete.
 std::size_t last_active_stroke(const Recording& recording, int active, int stroke_count) {
   int stroke = 0;
   for (const RecordedSample& sample : recording.samples) {

@@ -65,8 +65,7 @@ Signals signals_of(const Recording& recording, int character) {
   return signals;
 }
 
-/// The curve as a block of data. Of every bucket of samples the smallest and the largest are drawn, so that no peak is
-/// lost.
+/// The curve as a data block, with the smallest and the largest sample of every bucket, so that no peak is lost.
 std::string data_block(const std::vector<double>& time, const Signal& signal) {
   std::string text = "$" + std::string(signal.name) + " << END\n";
   const std::size_t bucket = std::max<std::size_t>(1, (time.size() + buckets - 1) / buckets);
@@ -96,7 +95,7 @@ std::string band_objects(const std::vector<Band>& bands) {
   return text;
 }
 
-/// Stroke numbers above the bands, but not one on another.
+/// Stroke numbers above the bands, without overlap.
 std::string band_labels(const std::vector<Band>& bands, double begin, double end) {
   const double needed = 20.0 / (plot_width * (panel_right - panel_left)) * (end - begin);
   double last = -std::numeric_limits<double>::infinity();
@@ -111,7 +110,7 @@ std::string band_labels(const std::vector<Band>& bands, double begin, double end
   return text;
 }
 
-/// From zero at least to the smallest and to the largest value, and a little beyond.
+/// The range from the smallest to the largest value, zero included, and a little beyond.
 std::string y_range(std::span<const Signal> curves) {
   double low = 0.0, high = 0.0;
   for (const Signal& curve : curves) {
@@ -127,7 +126,7 @@ std::string y_range(std::span<const Signal> curves) {
          gnuplot::numeral(high > 0.0 ? high + margin : 0.0) + "]\n";
 }
 
-/// Numbers alone vary: no text of the caller's reaches gnuplot.
+/// Only numbers vary: no text from the caller reaches gnuplot.
 std::string script(const Signals& signals) {
   const double begin = signals.time.front();
   const double end = std::max(signals.time.back(), begin + 1e-3);

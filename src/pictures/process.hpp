@@ -1,4 +1,4 @@
-// Starting another program; the one place of this component that knows the operating system.
+// Starting another program; the only place in this component that knows the operating system.
 #pragma once
 
 #include <string>

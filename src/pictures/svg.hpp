@@ -19,22 +19,22 @@ inline constexpr const char* faint = "#dddddd";
 
 using Attributes = std::initializer_list<std::pair<const char*, std::string>>;
 
-/// To three decimals at most, without trailing zeros.
+/// A numeral with at most three decimals, without trailing zeros.
 std::string number(double value);
 
-/// What XML may hold: control characters become blanks. @throws FormatError when the text is not UTF-8
+/// Replaces control characters, which XML may not hold, by blanks. @throws FormatError when the text is not UTF-8
 std::string clean(std::string_view text);
 
 pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes attributes);
 pugi::xml_node add_text(pugi::xml_node parent, double x, double y, double size, const std::string& text,
                         Attributes attributes = {});
 
-/// About how wide a sans-serif font sets the text.
+/// Approximate width of the text in a sans-serif font.
 double text_width(std::string_view text, double size);
 
-/// From the coordinates of a model to those of the picture, y down.
+/// Maps the coordinates of a model to those of the picture, y down.
 struct View {
-  Point origin = Point::Zero();  ///< where the model's zero is in the picture
+  Point origin = Point::Zero();  ///< where the model's origin is in the picture
   double scale = 1.0;
 
   Point operator()(const Point& point) const { return origin + scale * Point(point.x(), -point.y()); }

@@ -12,8 +12,8 @@ namespace calligraphy {
 /// Draws the page, life-size, after character `active` (index) has been written: templates blue, the active character
 /// yellow, traces light green, and a red ellipse at the start of the active stroke (of the last stroke once the
 /// character is complete). Traces of abandoned attempts are cleared, as on the display (sec. 4.3). A trace drawn as ink
-/// has the profile of the stroke that it wrote, at 0.6 of its width, so that the template shows on both sides of it
-/// where the pen kept to the path; that of a stroke in progress is a line.
+/// has the profile of its stroke at 0.6 of the width, so that the template shows on both sides where the pen kept to
+/// the path; the trace of a stroke in progress is a line.
 /// @throws ValueError when `active` is not on the page or the page is invalid, FormatError when the title is not UTF-8
 std::string page_picture(const PracticePage& page, const Recording& recording, int active, const std::string& title,
                          StrokeStyle style = StrokeStyle::ink);
