@@ -22,7 +22,6 @@
 #include "ink_fit.hpp"
 #include "labelled_fit.hpp"
 #include "stroke_letters.hpp"
-#include "stroke_polyline.hpp"
 
 namespace calligraphy {
 namespace {

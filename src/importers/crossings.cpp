@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "stroke_polyline.hpp"
-
 namespace calligraphy::recognition {
 namespace {
 

@@ -6,8 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "stroke_polyline.hpp"
-
 namespace calligraphy::recognition {
 namespace {
 

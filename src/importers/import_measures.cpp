@@ -11,10 +11,8 @@
 
 #include "ink_fit.hpp"
 #include "ink_measures.hpp"
-#include "labelled_fit.hpp"
-#include "outline.hpp"
+#include "shape_contradiction.hpp"
 #include "stroke_measures.hpp"
-#include "stroke_polyline.hpp"
 
 namespace calligraphy {
 namespace {
@@ -47,6 +45,14 @@ void measure_ink(const std::vector<DrawnStroke>& drawn, const std::vector<recogn
     strokes[i].ink = typical_ink(strokes[i].id, result.strokes[i].half_width);
   }
   result.typical_ink = recognition::measure_ink(outlines, stored_ink(code, strokes));
+}
+
+/// True if the drawing clearly contradicts the label of a stroke imported as `id`.
+bool contradicts_label(const DrawnStroke& drawn, const ImportedStroke& stroke, int id) {
+  if (stroke.label_agrees || drawn.label_ids.empty()) return false;
+  // One that overrides the label does, unless the label is a dot, which may fall in any direction.
+  if (id == stroke.recognised && !drawn.allows(8)) return true;
+  return recognition::contradicts(drawn.path, !drawn.outline.empty(), drawn.label_ids, stroke.recognised);
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include <calligraphy/model/typical_stroke.hpp>
 
 #include "outline.hpp"
-#include "shape_contradiction.hpp"
 
 namespace calligraphy {
 namespace {
@@ -72,13 +71,6 @@ LabelledFit fit_labelled(const std::vector<DrawnStroke>& drawn, const DrawingFil
     if (is_contradicted(result.strokes[i])) fit_one(i, true);
   }
   return result;
-}
-
-bool contradicts_label(const DrawnStroke& drawn, const ImportedStroke& stroke, int id) {
-  if (stroke.label_agrees || drawn.label_ids.empty()) return false;
-  // One that overrides the label does, unless the label is a dot, which may fall in any direction.
-  if (id == stroke.recognised && !drawn.allows(8)) return true;
-  return recognition::contradicts(drawn.path, !drawn.outline.empty(), drawn.label_ids, stroke.recognised);
 }
 
 }  // namespace calligraphy

@@ -19,7 +19,4 @@ struct LabelledFit {
 /// @throws FormatError naming the place and the stroke that cannot be fitted
 LabelledFit fit_labelled(const std::vector<DrawnStroke>& drawn, const DrawingFile& file);
 
-/// True if the drawing clearly contradicts the label of a stroke imported as `id`.
-bool contradicts_label(const DrawnStroke& drawn, const ImportedStroke& stroke, int id);
-
 }  // namespace calligraphy

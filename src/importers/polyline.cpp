@@ -6,7 +6,11 @@
 
 #include <Eigen/Dense>
 
+#include <calligraphy/model/stroke_polyline.hpp>
+#include <calligraphy/model/typical_stroke.hpp>
+
 namespace calligraphy::recognition {
+
 double direction_of(const Point& vector) { return std::atan2(vector.y(), vector.x()) * 180.0 / std::numbers::pi; }
 
 double wrapped(double degrees) { return std::remainder(degrees, 360.0); }
@@ -134,6 +138,11 @@ Line line_through(std::span<const Point> points) {
   for (const Point& point : points) moments += (point - mean) * (point - mean).transpose();
   const double angle = 0.5 * std::atan2(2.0 * moments(0, 1), moments(0, 0) - moments(1, 1));
   return {mean, Point(std::cos(angle), std::sin(angle))};
+}
+
+Path flattened(const StrokeInput& stroke) {
+  return calligraphy::stroke_polyline(
+      {&typical_stroke(stroke.id), stroke.composition().elements(), 3, stroke.control_points, {}});
 }
 
 }  // namespace calligraphy::recognition

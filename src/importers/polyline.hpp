@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include <calligraphy/model/character.hpp>
 #include <calligraphy/model/point.hpp>
 
 namespace calligraphy::recognition {
@@ -56,5 +57,8 @@ struct Line {
   Point direction;
 };
 Line line_through(std::span<const Point> points);
+
+/// The path of a stroke as stroke_polyline() flattens it, before it is part of a character.
+Path flattened(const StrokeInput& stroke);
 
 }  // namespace calligraphy::recognition

@@ -6,8 +6,6 @@
 
 #include <calligraphy/model/typical_stroke.hpp>
 
-#include "stroke_polyline.hpp"
-
 namespace calligraphy::recognition {
 namespace {
 

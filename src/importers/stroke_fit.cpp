@@ -18,7 +18,6 @@
 #include "frechet.hpp"
 #include "outline.hpp"
 #include "stroke_division.hpp"
-#include "stroke_polyline.hpp"
 #include "stroke_recognition.hpp"
 
 namespace calligraphy {

@@ -22,7 +22,6 @@
 #include "importers/polyline.hpp"
 #include "importers/stroke_labels.hpp"
 #include "importers/stroke_letters.hpp"
-#include "importers/stroke_polyline.hpp"
 
 namespace built_in_tests {
 
