@@ -14,14 +14,14 @@
 #include "base/archive_format.hpp"
 #include "base/parallel.hpp"
 #include "base/require.hpp"
-#include "crossings.hpp"
-#include "drawing_source.hpp"
-#include "frechet.hpp"
-#include "import_measures.hpp"
-#include "imported_character.hpp"
-#include "ink_fit.hpp"
+#include "importers/check/import_measures.hpp"
+#include "importers/check/imported_character.hpp"
+#include "importers/fit/crossings.hpp"
+#include "importers/fit/frechet.hpp"
+#include "importers/fit/ink_fit.hpp"
+#include "importers/read/drawing_source.hpp"
+#include "importers/read/stroke_letters.hpp"
 #include "labelled_fit.hpp"
-#include "stroke_letters.hpp"
 
 namespace calligraphy {
 namespace {

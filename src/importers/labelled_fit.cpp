@@ -11,7 +11,7 @@
 #include <calligraphy/importers/stroke_warnings.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
-#include "outline.hpp"
+#include "importers/fit/outline.hpp"
 
 namespace calligraphy {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <calligraphy/model/character.hpp>
 
-#include "drawing.hpp"
-#include "imported_character.hpp"
+#include "importers/check/imported_character.hpp"
+#include "importers/read/drawing.hpp"
 
 namespace calligraphy {
 

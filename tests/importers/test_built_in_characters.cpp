@@ -18,10 +18,10 @@
 
 #include "../catch.hpp"
 #include "../package_data.hpp"
-#include "importers/kanjivg.hpp"
-#include "importers/polyline.hpp"
-#include "importers/stroke_labels.hpp"
-#include "importers/stroke_letters.hpp"
+#include "importers/fit/polyline.hpp"
+#include "importers/read/kanjivg.hpp"
+#include "importers/read/stroke_labels.hpp"
+#include "importers/read/stroke_letters.hpp"
 
 namespace built_in_tests {
 

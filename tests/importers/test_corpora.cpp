@@ -12,7 +12,7 @@
 #include "../catch.hpp"
 #include "../package_data.hpp"
 #include "../sanitized.hpp"
-#include "importers/stroke_letters.hpp"
+#include "importers/read/stroke_letters.hpp"
 
 using namespace calligraphy;
 

@@ -10,7 +10,7 @@
 #include "../catch.hpp"
 #include "../package_data.hpp"
 #include "../temporary_directory.hpp"
-#include "importers/hanzi_writer.hpp"
+#include "importers/read/hanzi_writer.hpp"
 
 namespace hanzi_writer_tests {
 

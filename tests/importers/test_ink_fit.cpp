@@ -15,9 +15,9 @@
 #include "../package_data.hpp"
 #include "../sanitized.hpp"
 #include "../temporary_directory.hpp"
-#include "importers/bitmap.hpp"
-#include "importers/ink_fit.hpp"
-#include "importers/ink_measures.hpp"
+#include "importers/check/bitmap.hpp"
+#include "importers/check/ink_measures.hpp"
+#include "importers/fit/ink_fit.hpp"
 
 namespace ink_fit_tests {
 

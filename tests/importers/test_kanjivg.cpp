@@ -8,8 +8,8 @@
 #include <calligraphy/model/bezier.hpp>
 
 #include "../catch.hpp"
-#include "importers/kanjivg.hpp"
-#include "importers/path_data.hpp"
+#include "importers/read/kanjivg.hpp"
+#include "importers/read/path_data.hpp"
 
 namespace kanjivg_tests {
 

@@ -7,7 +7,7 @@
 
 #include "../catch.hpp"
 #include "../temporary_directory.hpp"
-#include "importers/source_files.hpp"
+#include "importers/read/source_files.hpp"
 
 namespace source_files_tests {
 

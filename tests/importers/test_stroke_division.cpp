@@ -9,10 +9,10 @@
 #include <calligraphy/model/typical_stroke.hpp>
 
 #include "../catch.hpp"
-#include "importers/control_points.hpp"
-#include "importers/piece_residuals.hpp"
-#include "importers/polyline.hpp"
-#include "importers/stroke_division.hpp"
+#include "importers/fit/control_points.hpp"
+#include "importers/fit/piece_residuals.hpp"
+#include "importers/fit/polyline.hpp"
+#include "importers/fit/stroke_division.hpp"
 
 namespace stroke_division_tests {
 

@@ -8,8 +8,8 @@
 #include "../catch.hpp"
 #include "../package_data.hpp"
 #include "../temporary_directory.hpp"
-#include "importers/stroke_labels.hpp"
-#include "importers/stroke_letters.hpp"
+#include "importers/read/stroke_labels.hpp"
+#include "importers/read/stroke_letters.hpp"
 
 namespace stroke_letters_tests {
 

@@ -7,10 +7,10 @@
 
 #include "../catch.hpp"
 #include "../sanitized.hpp"
-#include "importers/crossings.hpp"
-#include "importers/frechet.hpp"
-#include "importers/outline.hpp"
-#include "importers/stroke_measures.hpp"
+#include "importers/check/stroke_measures.hpp"
+#include "importers/fit/crossings.hpp"
+#include "importers/fit/frechet.hpp"
+#include "importers/fit/outline.hpp"
 
 namespace stroke_measures_tests {
 

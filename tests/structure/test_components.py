@@ -25,6 +25,9 @@ BELOW = {
 }
 BACKENDS = ["phantom", "openhaptics"]  # folders beneath devices
 
+# The folders of a component, each with those of them whose headers it may include.
+FOLDERS = {"importers": {"read": [], "fit": [], "check": ["read", "fit"]}}
+
 # From devices, render may include only plain structs and the arithmetic of one estimator: no device, no loop.
 PLAIN_DEVICE_HEADERS = {"capabilities", "device_state", "velocity_estimator"}
 
@@ -63,6 +66,10 @@ def arrows(root):
                     found.append(f"{path}: {own} includes {name}, and {target} is not below it")
                 if own == "render" and target == "devices" and pathlib.PurePosixPath(name).stem not in PLAIN_DEVICE_HEADERS:
                     found.append(f"{path}: render includes {name}, which is not a plain struct of devices")
+                inner, other = parts[1], pathlib.PurePosixPath(name).parts[1]
+                if own == target and inner in FOLDERS.get(own, {}) and other in FOLDERS[own]:
+                    if other not in FOLDERS[own][inner] + [inner]:
+                        found.append(f"{path}: {own}/{inner} includes {name}")
                 if folder.startswith("include") and not public:
                     found.append(f"{path}: a public header includes the private {name}")
     return found

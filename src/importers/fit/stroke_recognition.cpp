@@ -13,10 +13,10 @@
 namespace calligraphy::recognition {
 namespace {
 
-constexpr double unreachable = std::numeric_limits<double>::infinity();
+constexpr double impossible = std::numeric_limits<double>::infinity();
 
 struct Choice {
-  double cost = unreachable;
+  double cost = impossible;
   std::vector<std::size_t> corners;
 };
 
@@ -25,13 +25,13 @@ Choice divide(const CompoundRule& rule, std::string_view kinds, const PieceTable
   const std::size_t corners = table.count();
   const std::size_t elements = rule.elements.size();
   if (corners <= elements) return {};
-  std::vector<double> cost((elements + 1) * corners, unreachable);
+  std::vector<double> cost((elements + 1) * corners, impossible);
   std::vector<std::size_t> previous((elements + 1) * corners, 0);
   cost[0] = 0.0;
   for (std::size_t element = 0; element < elements; ++element) {
     for (std::size_t from = element; from + 1 < corners; ++from) {
       const double before = cost[element * corners + from];
-      if (before == unreachable) continue;
+      if (before == impossible) continue;
       const std::size_t first_end = element + 1 == elements ? corners - 1 : from + 1;
       for (std::size_t to = first_end; to < corners; ++to) {
         const double total = before + cost_of(rule.elements[element], kinds[element], table.between(from, to), length);
@@ -72,7 +72,7 @@ std::vector<Recognition> recognise(const Path& path, std::span<const std::size_t
   std::vector<Recognition> found{{simple, {0, path.size() - 1}, simple_price}};
   for (const CompoundRule& rule : compound_rules()) {
     Recognition compound = as_compound(rule, table, corners, shape.length);
-    if (compound.cost < unreachable) found.push_back(std::move(compound));
+    if (compound.cost < impossible) found.push_back(std::move(compound));
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Recognition& a, const Recognition& b) { return a.cost < b.cost; });

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "polyline.hpp"
+#include "importers/fit/polyline.hpp"
 
 namespace calligraphy::recognition {
 

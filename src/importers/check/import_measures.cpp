@@ -9,7 +9,7 @@
 #include <calligraphy/model/stroke_polyline.hpp>
 #include <calligraphy/model/typical_ink.hpp>
 
-#include "ink_fit.hpp"
+#include "importers/fit/ink_fit.hpp"
 #include "ink_measures.hpp"
 #include "shape_contradiction.hpp"
 #include "stroke_measures.hpp"

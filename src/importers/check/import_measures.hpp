@@ -5,9 +5,9 @@
 
 #include <calligraphy/model/character.hpp>
 
-#include "crossings.hpp"
-#include "drawing.hpp"
 #include "imported_character.hpp"
+#include "importers/fit/crossings.hpp"
+#include "importers/read/drawing.hpp"
 
 namespace calligraphy {
 

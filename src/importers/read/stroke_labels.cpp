@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/charconv.hpp"
-#include "built_in.hpp"
+#include "importers/built_in.hpp"
 
 namespace calligraphy {
 namespace {

@@ -13,9 +13,9 @@
 #include <calligraphy/model/bezier.hpp>
 
 #include "base/parallel.hpp"
-#include "polyline.hpp"
+#include "importers/fit/polyline.hpp"
+#include "importers/read/stroke_labels.hpp"
 #include "shape_contradiction.hpp"
-#include "stroke_labels.hpp"
 
 namespace calligraphy {
 namespace {

@@ -31,12 +31,12 @@ constexpr Direction kind_directions[] = {
 
 bool is_simple(int id) { return typical_stroke(id).elements.size() == 1; }
 
-bool contains(std::span<const int> ids, int id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
+bool is_one_of(int id, std::span<const int> ids) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
 
 /// True for a stroke that ends with a hook; that of a heng gou is rather the limb of a heng pie.
 bool has_hook(int id) {
   constexpr int hooked[] = {12, 13, 14, 15, 18, 20, 21, 22, 27, 28, 31, 35};
-  return contains(hooked, id);
+  return is_one_of(id, hooked);
 }
 
 /// Direction of the path without the slants at its ends [degree].
@@ -89,7 +89,7 @@ bool ends_in_hook(std::span<const Point> path, double shortest) {
 bool is_misdirected(std::span<const Point> path, std::span<const int> ids) {
   const double direction = main_direction(path);
   return std::none_of(std::begin(kind_directions), std::end(kind_directions), [&](const Direction& kind) {
-    return contains(ids, kind.id) && std::abs(wrapped(direction - kind.middle)) <= kind.reach;
+    return is_one_of(kind.id, ids) && std::abs(wrapped(direction - kind.middle)) <= kind.reach;
   });
 }
 
@@ -97,13 +97,13 @@ bool contradicts(std::span<const Point> path, bool brush, std::span<const int> i
   constexpr double most = 60.0;        // [degree]
   constexpr double brush_hook = 0.04;  // [em]; a lift is shorter
   constexpr double pen_hook = 0.012;   // [em]
-  if (ids.empty() || contains(ids, recognised)) return false;
+  if (ids.empty() || is_one_of(recognised, ids)) return false;
   const auto all = [&](auto condition) { return std::all_of(ids.begin(), ids.end(), condition); };
   if (all(is_simple)) {
     return is_misdirected(path, ids) ||
            (!is_simple(recognised) && ends_in_hook(path, brush ? brush_hook : pen_hook));
   }
-  if (brush) return recognised == 13 && contains(ids, 12);
+  if (brush) return recognised == 13 && is_one_of(12, ids);
   const double turned = turning(path);
   if (all(has_hook)) {
     return !has_hook(recognised) && all([&](int id) { return turned < typical_turning(id) - most; });

@@ -5,7 +5,7 @@
 
 #include <calligraphy/importers/character_import.hpp>
 
-#include "polyline.hpp"
+#include "importers/fit/polyline.hpp"
 
 namespace calligraphy::recognition {
 

@@ -6,15 +6,15 @@
 #include <limits>
 
 #include "bitmap.hpp"
-#include "outline.hpp"
-#include "polyline.hpp"
+#include "importers/fit/outline.hpp"
+#include "importers/fit/polyline.hpp"
 
 namespace calligraphy::recognition {
 namespace {
 
 constexpr double joined = 0.005;  // [em]; strokes that nearly touch look as if they did
 constexpr double apart = 0.01;    // [em]
-constexpr double near = 0.03;     // [em]; boxes farther apart hold no pair of neighbours
+constexpr double box_gap = 0.03;  // [em]; strokes whose boxes are farther apart are no neighbours
 
 bool segments_cross(const Point& a, const Point& b, const Point& c, const Point& d) {
   const auto side = [](const Point& from, const Point& to, const Point& point) {
@@ -71,7 +71,7 @@ InkMeasures measure_ink(std::span<const std::span<const Point>> outlines, std::s
   for (const std::span<const Point> each : outlines) boxes.push_back(box_of(each));
   for (std::size_t i = 0; i < outlines.size(); ++i) {
     for (std::size_t k = i + 1; k < outlines.size(); ++k) {
-      if (boxes[i].exteriorDistance(boxes[k]) > near) continue;
+      if (boxes[i].exteriorDistance(boxes[k]) > box_gap) continue;
       const double wanted = gap_between(outlines[i], outlines[k]);
       if (wanted > 0.0 && wanted <= apart) continue;
       const double drawn = gap_between(inks[i], inks[k]);
