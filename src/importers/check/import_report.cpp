@@ -92,18 +92,6 @@ class Counter {
 
 }  // namespace
 
-const char* to_string(SourceKind kind) noexcept {
-  switch (kind) {
-    case SourceKind::hanzi_writer_data:
-      return "hanzi-writer-data";
-    case SourceKind::kanjivg:
-      return "KanjiVG";
-    case SourceKind::calligraphy:
-      break;
-  }
-  return "calligraphy";
-}
-
 const char* to_string(LabelResolution resolution) noexcept {
   switch (resolution) {
     case LabelResolution::accepted:

@@ -88,6 +88,18 @@ std::string package_words(const std::string& package_json) {
 
 }  // namespace
 
+const char* to_string(SourceKind kind) noexcept {
+  switch (kind) {
+    case SourceKind::hanzi_writer_data:
+      return "hanzi-writer-data";
+    case SourceKind::kanjivg:
+      return "KanjiVG";
+    case SourceKind::calligraphy:
+      break;
+  }
+  return "calligraphy";
+}
+
 DrawingSource read_drawings(const std::filesystem::path& path, const ImportOptions& options) {
   Selection selection(options);
   const auto skip_reason = [&](std::string_view file) {

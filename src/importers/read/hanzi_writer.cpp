@@ -1,15 +1,10 @@
 #include "hanzi_writer.hpp"
 
-#include <cerrno>
 #include <cmath>
-#include <filesystem>
 
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/base/file.hpp>
-#include <calligraphy/base/text.hpp>
-#include <calligraphy/importers/stroke_fit.hpp>
 
 #include "path_data.hpp"
 
@@ -111,24 +106,6 @@ class Reader {
 
 std::vector<BrushStroke> parse_hanzi_writer(std::string_view json, const std::string& name) {
   return Reader(json, name).strokes();
-}
-
-Character read_hanzi_writer(const std::string& directory, char32_t code) {
-  const bool is_character = code > 0 && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
-  if (!is_character) throw FileError(directory + ": invalid code point " + std::to_string(static_cast<unsigned>(code)));
-  const std::string name = encode_utf8(code);
-  const std::filesystem::path path = std::filesystem::path(directory) / (name + ".json");
-  std::error_code failure;
-  if (!std::filesystem::is_regular_file(path, failure)) {
-    throw FileError(path.string(),
-                    "no such file; is this the unpacked npm package hanzi-writer-data, and does it contain " + name + "?",
-                    ENOENT);
-  }
-  std::vector<StrokeInput> strokes;
-  for (const BrushStroke& stroke : parse_hanzi_writer(read_file(path, max_file_bytes), path.filename().string())) {
-    strokes.push_back(fit_stroke(stroke.median, {.outline = stroke.outline}).stroke);
-  }
-  return make_character(code, strokes);
 }
 
 }  // namespace calligraphy

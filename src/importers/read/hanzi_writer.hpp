@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <calligraphy/model/character.hpp>
+#include <calligraphy/model/point.hpp>
 
 namespace calligraphy {
 
@@ -18,9 +18,5 @@ struct BrushStroke {
 /// the result is in the unit square, y up. Outlines are empty if the file has none. `name` is used in messages.
 /// @throws FormatError naming the place
 std::vector<BrushStroke> parse_hanzi_writer(std::string_view json, const std::string& name);
-
-/// Reads and fits one character of the unpacked npm package: `directory`/北.json.
-/// @throws FileError if there is no such file, FormatError naming the file and the place
-Character read_hanzi_writer(const std::string& directory, char32_t code);
 
 }  // namespace calligraphy
