@@ -1,8 +1,6 @@
 #include "import_report.hpp"
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,7 +10,8 @@
 #include <calligraphy/base/text.hpp>
 
 #include "counted.hpp"
-#include "import_measures.hpp"
+#include "importers/check/report_figures.hpp"
+#include "importers/check/report_json.hpp"
 #include "options.hpp"
 
 namespace calligraphy::tools {
@@ -20,21 +19,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double percent = 100.0;
 constexpr std::size_t max_examples = 10;  // in a table; the JSON has all
-
-/// Skipped files by reason.
-std::map<std::string, std::vector<std::string>> by_reason(const std::vector<SkippedFile>& skipped) {
-  std::map<std::string, std::vector<std::string>> reasons;
-  for (const SkippedFile& file : skipped) reasons[file.reason].push_back(file.path);
-  return reasons;
-}
+constexpr std::size_t max_listed = 20;    // of the strokes that a row counts
 
 std::string typical_name(int id) { return fmt::format("{} {}", id, typical_stroke(id).name); }
 
-int count_of(const ImportReport& report, LabelResolution resolution) {
-  return static_cast<int>(
-      std::count_if(report.label_conflicts.begin(), report.label_conflicts.end(),
-                    [resolution](const LabelConflict& conflict) { return conflict.resolution == resolution; }));
+std::string stroke_reference_text(const StrokeReference& place) {
+  return fmt::format("{} stroke {}", character_label(place.code, place.order), place.stroke);
 }
 
 std::string fit_table(const ImportReport& report) {
@@ -43,8 +35,8 @@ std::string fit_table(const ImportReport& report) {
   std::string characters = "characters with every stroke        ";
   for (const FitCount& count : report.within) {
     limits += fmt::format("{:>8.0f} %", percent * count.error);
-    strokes += fmt::format("{:>8.2f} %", percent * share(count.strokes, report.strokes));
-    characters += fmt::format("{:>8.2f} %", percent * share(count.characters, report.characters));
+    strokes += fmt::format("{:>8.2f} %", percent * share_of(count.strokes, report.strokes));
+    characters += fmt::format("{:>8.2f} %", percent * share_of(count.characters, report.characters));
   }
   std::string text = limits + " of the em\n" + strokes + "\n" + characters + "\n";
   text += "\nlargest errors [% of the em]\n";
@@ -55,22 +47,54 @@ std::string fit_table(const ImportReport& report) {
   return text;
 }
 
+std::string row(const char* what, const std::string& value) { return fmt::format("  {:<43}{:>10}\n", what, value); }
+
+std::string share_row(const char* what, int part, int whole) {
+  return row(what, fmt::format("{:.2f} %", percent * share_of(part, whole)));
+}
+
+/// A row, and the strokes that it counts if they are few.
+std::string counted_row(const char* what, const ImportReport& report, bool (*condition)(const StrokeMeasures&)) {
+  const int count = count_of(report, condition);
+  std::string text = row(what, std::to_string(count));
+  if (count == 0 || static_cast<std::size_t>(count) > max_listed) return text;
+  for (const StrokeMeasures& stroke : report.measures) {
+    if (condition(stroke)) text += "    " + stroke_reference_text(stroke.place) + "\n";
+  }
+  return text;
+}
+
+/// Shares of all strokes, and the strokes that run back.
+std::string measures_table(const ImportReport& report, std::size_t bytes) {
+  const auto all = static_cast<int>(report.measures.size());
+  std::string text = fmt::format("\nof {}, each against the whole of its source\n", counted(all, "stroke"));
+  text += counted_row("strokes that run back by more than 5 %", report, runs_back);
+  text += share_row("length from 0.9 (L - 2 h) to 1.1 L", count_of(report, keeps_length), all);
+  text += counted_row("strokes with a corner that the source lacks", report, has_false_corner);
+  text += counted_row("strokes that lack a corner of the source", report, has_lost_corner);
+  text += counted_row("  more than 10 % of the em from its ends", report, has_lost_inner_corner);
+  text += share_row("crossings of strokes kept", report.crossings.kept, report.crossings.source);
+  if (report.labelled > 0) text += share_row("strokes of a kind their label allows", report.allowed, report.labelled);
+  text += row("bytes a character", fmt::format("{:.1f}", bytes_per_character(report, bytes)));
+  return text;
+}
+
 std::string id_table(const ImportReport& report) {
   std::string text = "\ntypical strokes used\n";
   for (int id = 1; id <= typical_stroke_count; ++id) {
     const int count = report.ids_used[static_cast<std::size_t>(id)];
     if (count == 0) continue;
-    text += fmt::format("{:>8}  {:>6.2f} %  {} {}\n", count, percent * share(count, report.strokes), typical_name(id),
-                        typical_stroke(id).pinyin);
+    text += fmt::format("{:>8}  {:>6.2f} %  {} {}\n", count, percent * share_of(count, report.strokes),
+                        typical_name(id), typical_stroke(id).pinyin);
   }
   return text;
 }
 
 std::string label_table(const ImportReport& report) {
   if (report.labelled == 0 && report.label_conflicts.empty()) return {};
-  std::string text =
-      fmt::format("\nlabels: of {}, geometry alone recognises {} as labelled ({:.2f} %)\n",
-                  counted(report.labelled, "stroke"), report.agreed, percent * share(report.agreed, report.labelled));
+  std::string text = fmt::format("\nlabels: of {}, geometry alone recognises {} as labelled ({:.2f} %)\n",
+                                 counted(report.labelled, "stroke"), report.agreed,
+                                 percent * share_of(report.agreed, report.labelled));
   text +=
       fmt::format("  labels of the others: {} accepted, {} overridden by the shape, {} unknown\n",
                   count_of(report, LabelResolution::accepted), count_of(report, LabelResolution::overridden),
@@ -89,77 +113,13 @@ std::string label_table(const ImportReport& report) {
 
 std::string skipped_table(const ImportReport& report) {
   std::string text;
-  for (const auto& [reason, files] : by_reason(report.skipped)) {
+  for (const auto& [reason, files] : skipped_by_reason(report)) {
     if (text.empty()) text = "\nskipped\n";
     text += fmt::format("{:>8}  {}: {}{}\n", files.size(), reason, printable(files.front()),
                         files.size() > 1 ? ", ..." : "");
   }
   for (const std::string& note : report.notes) text += "\nnote: " + note + "\n";
   return text;
-}
-
-Json fit_json(const ImportReport& report) {
-  Json rows = Json::array();
-  for (const FitCount& count : report.within) {
-    rows.push_back({{"error_em", count.error},
-                    {"strokes", count.strokes},
-                    {"strokes_share", share(count.strokes, report.strokes)},
-                    {"characters", count.characters},
-                    {"characters_share", share(count.characters, report.characters)}});
-  }
-  return rows;
-}
-
-Json worst_json(const ImportReport& report) {
-  Json rows = Json::array();
-  for (const StrokeError& worst : report.worst) {
-    Json row = place_json(worst.place);
-    row["id"] = worst.id;
-    row["error_em"] = worst.error;
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-Json label_json(const ImportReport& report) {
-  Json confusions = Json::array();
-  for (const LabelConfusion& confusion : report.confusions) {
-    confusions.push_back({{"label", confusion.label},
-                          {"recognised_id", confusion.recognised},
-                          {"strokes", confusion.count},
-                          {"example", place_json(confusion.example)}});
-  }
-  Json conflicts = Json::array();
-  for (const LabelConflict& conflict : report.label_conflicts) {
-    Json row = place_json(conflict.place);
-    row["label"] = conflict.label;
-    row["resolution"] = to_string(conflict.resolution);
-    row["recognised_id"] = conflict.recognised;
-    row["id"] = conflict.id;
-    conflicts.push_back(row);
-  }
-  Json unused = Json::array();
-  for (const char32_t code : report.letters_unused) unused.push_back(encode_utf8(code));
-  return {
-      {"strokes", report.labelled}, {"agreed", report.agreed}, {"agreed_share", share(report.agreed, report.labelled)},
-      {"confusions", confusions},   {"conflicts", conflicts},  {"letters_unused", unused}};
-}
-
-Json ids_json(const ImportReport& report) {
-  Json ids = Json::object();
-  for (int id = 1; id <= typical_stroke_count; ++id) {
-    const int count = report.ids_used[static_cast<std::size_t>(id)];
-    if (count > 0) ids[std::to_string(id)] = count;
-  }
-  return ids;
-}
-
-Json skipped_json(const ImportReport& report) {
-  Json rows = Json::array();
-  for (const auto& [reason, files] : by_reason(report.skipped)) {
-    rows.push_back({{"reason", reason}, {"count", files.size()}, {"files", files}});
-  }
-  return rows;
 }
 
 }  // namespace
@@ -188,6 +148,23 @@ std::string character_label(char32_t code, const std::string& order) {
   return order.empty() ? character_label(code) : character_label(code) + " order " + order;
 }
 
+std::string ink_table(const ImportResult& import) {
+  const std::vector<InkFigures> rows = ink_figures(import);
+  if (rows.empty()) return {};
+  constexpr const char* head = "{:<28}{:>10}{:>8}{:>8}{:>8}{:>10}{:>8}\n";
+  std::string text = "\nink against the outlines: intersection over union of areas; contacts of strokes\n";
+  text += fmt::format(fmt::runtime(head), "", "bytes a", "", "", "whole", "kept", "new");
+  text += fmt::format(fmt::runtime(head), "", "character", "mean", "p5", "char.", "[%]", "[%]");
+  for (const InkFigures& ink : rows) {
+    const InkMeasures& measures = *ink.measures;
+    text += fmt::format("{:<28}{:>10.1f}{:>8.4f}{:>8.4f}{:>8.4f}{:>10.2f}{:>8.2f}\n", ink.name,
+                        ink.bytes_per_character, ink.mean, ink.low, ink.character_mean,
+                        percent * share_of(measures.contacts_kept, measures.contacts),
+                        percent * share_of(measures.new_contacts, std::max(1, measures.apart)));
+  }
+  return text;
+}
+
 std::string tables(const ImportResult& import, const ImportOutput& output) {
   const ImportReport& report = import.report;
   const Provenance& provenance = import.list.provenance;
@@ -201,29 +178,19 @@ std::string tables(const ImportResult& import, const ImportOutput& output) {
 }
 
 std::string json(const ImportResult& import, const ImportOutput& output) {
-  const ImportReport& report = import.report;
   const Provenance& provenance = import.list.provenance;
   const Contents contents = contents_of(import.list);
   Json all = {{"file", output.file},
               {"format", output.format},
               {"bytes", output.bytes},
-              {"kind", calligraphy::to_string(report.kind)},
+              {"kind", calligraphy::to_string(import.report.kind)},
               {"source", provenance.source},
               {"licence", provenance.licence},
               {"attribution", provenance.attribution},
               {"characters", contents.characters},
               {"strokes", contents.strokes},
               {"alternate_orders", contents.alternate_orders}};
-  if (report.kind != SourceKind::calligraphy) {
-    all["within"] = fit_json(report);
-    all["worst"] = worst_json(report);
-    all["labels"] = label_json(report);
-    if (!report.measures.empty()) all["measures"] = measures_json(report, output.bytes);
-    if (!report.ink.strokes.empty()) all["ink"] = ink_json(import);
-  }
-  all["ids_used"] = ids_json(report);
-  all["skipped"] = skipped_json(report);
-  all["notes"] = report.notes;
+  all.update(report_json(import, output.bytes));
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // file names may be in any encoding
 }
 

@@ -16,6 +16,9 @@ struct ImportOutput {
 
 std::string tables(const ImportResult& import, const ImportOutput& output);
 
+/// What ink costs in a set file at standard precision, and how well it covers the outlines; of ink_figures().
+std::string ink_table(const ImportResult& import);
+
 std::string json(const ImportResult& import, const ImportOutput& output);
 
 /// What a list has, counted as `calligraphy info` does.

@@ -5,7 +5,8 @@
 
 #include <calligraphy/base/text.hpp>
 
-#include "import_measures.hpp"
+#include "import_report.hpp"
+#include "importers/check/report_json.hpp"
 
 namespace calligraphy::tools {
 namespace {

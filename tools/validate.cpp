@@ -8,7 +8,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <calligraphy/base/text.hpp>
 #include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/importers/stroke_warnings.hpp>
 
@@ -16,6 +15,7 @@
 #include "commands.hpp"
 #include "counted.hpp"
 #include "import_report.hpp"
+#include "importers/check/report_json.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 
@@ -32,16 +32,9 @@ struct ValidateArguments {
   bool json = false;
 };
 
-/// A suspicious stroke.
-struct Finding {
-  StrokeReference place;
-  std::string kind;
-  std::string what;
-};
-
 struct Findings {
   Contents contents;
-  std::vector<Finding> list;
+  std::vector<CharacterWarnings> characters;
 };
 
 Findings findings(const ValidateArguments& options) {
@@ -57,38 +50,29 @@ Findings findings(const ValidateArguments& options) {
   warn_of_missing(asked.only, import.list, options.file);
   Findings found{contents_of(import.list), {}};
   const auto second_half = [&progress](double share) { progress.show(0.5 + 0.5 * share); };
-  for (const CharacterWarnings& character : import_warnings(import, options.threads, second_half)) {
-    for (const StrokeWarning& warning : character.warnings) {
-      found.list.push_back(
-          {{character.code, character.order, warning.stroke}, calligraphy::to_string(warning.kind), warning.what});
-    }
-  }
+  found.characters = import_warnings(import, options.threads, second_half);
   return found;
 }
 
 std::string listed_as_json(const Findings& findings) {
-  Json warnings = Json::array();
-  for (const Finding& finding : findings.list) {
-    warnings.push_back({{"character", encode_utf8(finding.place.code)},
-                        {"order", finding.place.order},
-                        {"stroke", finding.place.stroke},
-                        {"kind", finding.kind},
-                        {"what", finding.what}});
-  }
   const Json all = {{"characters", findings.contents.characters},
                     {"strokes", findings.contents.strokes},
                     {"alternate_orders", findings.contents.alternate_orders},
-                    {"warnings", warnings}};
+                    {"warnings", warnings_json(findings.characters)}};
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string listed(const Findings& findings) {
   std::string text;
-  for (const Finding& finding : findings.list) {
-    text += fmt::format("{} stroke {}: {}: {}\n", character_label(finding.place.code, finding.place.order),
-                        finding.place.stroke, finding.kind, finding.what);
+  std::size_t count = 0;
+  for (const CharacterWarnings& character : findings.characters) {
+    count += character.warnings.size();
+    for (const StrokeWarning& warning : character.warnings) {
+      text += fmt::format("{} stroke {}: {}: {}\n", character_label(character.code, character.order), warning.stroke,
+                          calligraphy::to_string(warning.kind), warning.what);
+    }
   }
-  return text + counted(findings.list.size(), "warning") + " in " + to_string(findings.contents) + "\n";
+  return text + counted(count, "warning") + " in " + to_string(findings.contents) + "\n";
 }
 
 void run(const ValidateArguments& options) {
