@@ -28,7 +28,7 @@ namespace {
 
 constexpr int max_imported_strokes = 1'000'000;  // of an import; the largest source known has 148 thousand
 
-/// Lets strokes cross that cross in the drawing. Returns the crossings of the drawing.
+/// Makes strokes cross that cross in the drawing. Returns the crossings of the drawing.
 std::vector<recognition::CrossingStrokes> keep_crossings(const std::vector<DrawnStroke>& drawn, LabelledFit& fit) {
   std::vector<recognition::Path> sources;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
@@ -41,7 +41,7 @@ std::vector<recognition::CrossingStrokes> keep_crossings(const std::vector<Drawn
   return crossings;
 }
 
-/// If every stroke has an outline.
+/// Adds ink, provided that every stroke has an outline.
 void add_ink(const std::vector<DrawnStroke>& drawn, InkDetail detail, std::vector<StrokeInput>& strokes) {
   const auto has_outline = [](const DrawnStroke& stroke) { return stroke.outline.size() >= 3; };
   if (detail == InkDetail::none || !std::all_of(drawn.begin(), drawn.end(), has_outline)) return;
@@ -50,7 +50,7 @@ void add_ink(const std::vector<DrawnStroke>& drawn, InkDetail detail, std::vecto
   }
 }
 
-/// What becomes of one drawing.
+/// The character made from one drawing.
 ImportedCharacter imported(const DrawingFile& file, Drawing drawing, const ImportOptions& options) {
   LabelledFit fit = fit_labelled(drawing.strokes, file);
   const std::vector<recognition::CrossingStrokes> crossings = keep_crossings(drawing.strokes, fit);

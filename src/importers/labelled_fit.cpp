@@ -16,15 +16,15 @@
 namespace calligraphy {
 namespace {
 
-/// True if the stroke runs across or against the typical one: then the label is that of another stroke.
+/// True if the stroke runs across or against the typical one: then the label belongs to another stroke.
 bool is_misdirected(const StrokeInput& stroke) {
   constexpr double most = 80.0 * std::numbers::pi / 180.0;
   const std::string_view elements = stroke.composition().elements();
   return start_direction_error({&typical_stroke(stroke.id), elements, 3, stroke.control_points, {}}) > most;
 }
 
-/// Fits a stroke. Its label decides unless the shape follows the drawing much more closely or, if the label is doubtful
-/// since it may be another stroke's, as closely.
+/// Fits a stroke. Its label decides unless the recognised kind follows the drawing much more closely or, if the label
+/// is doubtful because it may belong to another stroke, just as closely.
 StrokeInput fit(const DrawnStroke& drawn, bool doubtful, ImportedStroke& result) {
   constexpr double of_pen = 0.018;     // [em]; a label is not questioned within this distance of the drawing
   constexpr double much_closer = 0.7;  // [1]
@@ -59,8 +59,8 @@ LabelledFit fit_labelled(const std::vector<DrawnStroke>& drawn, const DrawingFil
   };
   for (std::size_t i = 0; i < drawn.size(); ++i) fit_one(i, false);
 
-  // A string of letters is that of another order if many of them are not what geometry alone recognises: then these are
-  // doubtful.
+  // Letters are those of another stroke order if geometry alone recognises something else for many of them: then these
+  // are doubtful.
   constexpr std::ptrdiff_t many = 5;  // in the right order there are up to four
   const auto is_contradicted = [](const ImportedStroke& stroke) { return stroke.label_known && !stroke.label_agrees; };
   const bool has_letters = file.character.kind == SourceKind::hanzi_writer_data;

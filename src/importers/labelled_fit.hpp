@@ -10,7 +10,7 @@
 
 namespace calligraphy {
 
-/// The strokes that were fitted, and what is said of them.
+/// The fitted strokes, and what the report says about them.
 struct LabelledFit {
   std::vector<StrokeInput> inputs;
   std::vector<ImportedStroke> strokes;

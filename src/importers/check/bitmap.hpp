@@ -11,7 +11,7 @@
 
 namespace calligraphy::recognition {
 
-/// From -0.25 to 1.25 em in both directions; a pixel is black if its centre is inside. What lies beyond is left out.
+/// From -0.25 to 1.25 em in both directions; a pixel is black if its centre is inside. Anything beyond is ignored.
 class Bitmap {
  public:
   explicit Bitmap(int pixels_per_em);
@@ -20,7 +20,7 @@ class Bitmap {
   /// Fills a closed polygon by the nonzero rule.
   void fill(std::span<const Point> polygon);
   void fill(const InkDisc& disc);
-  /// Blackens what is black in `other`, which has the same resolution.
+  /// Adds the black pixels of `other`, which has the same resolution.
   void add(const Bitmap& other);
   /// Number of black pixels.
   std::int64_t area() const;
@@ -34,8 +34,8 @@ class Bitmap {
 
   int pixels_per_em_;
   int rows_;
-  int words_;  ///< of a row
-  int first_row_, last_row_;  ///< that are not white, or `last_row_ < first_row_`
+  int words_;  ///< per row
+  int first_row_, last_row_;  ///< that are not all white; none if `last_row_ < first_row_`
   std::vector<std::uint64_t> bits_;
 };
 

@@ -30,7 +30,7 @@ std::vector<std::vector<InkDisc>> stored_ink(char32_t code, const std::vector<St
   return inks;
 }
 
-/// The ink as stored and, to compare with it, without offsets, and that of the strokes' kinds.
+/// Measures the ink as stored and, for comparison, ink without offsets and the typical ink of each kind.
 void measure_ink(const std::vector<DrawnStroke>& drawn, const std::vector<recognition::Path>& paths,
                  std::vector<StrokeInput> strokes, ImportedCharacter& result) {
   const char32_t code = result.character.code;
@@ -50,7 +50,7 @@ void measure_ink(const std::vector<DrawnStroke>& drawn, const std::vector<recogn
 /// True if the drawing clearly contradicts the label of a stroke imported as `id`.
 bool contradicts_label(const DrawnStroke& drawn, const ImportedStroke& stroke, int id) {
   if (stroke.label_agrees || drawn.label_ids.empty()) return false;
-  // One that overrides the label does, unless the label is a dot, which may fall in any direction.
+  // A shape that overrides the label does, unless the label is a dot's, which may fall in any direction.
   if (id == stroke.recognised && !drawn.allows(8)) return true;
   return recognition::contradicts(drawn.path, !drawn.outline.empty(), drawn.label_ids, stroke.recognised);
 }

@@ -11,7 +11,7 @@
 
 namespace calligraphy {
 
-/// Adds the measures to `result`, whose character and strokes are those of `strokes`. `crossings`: of the drawing.
+/// Adds the measures to `result`, whose character is made of `strokes`. `crossings`: those of the drawing.
 void measure_import(const std::vector<DrawnStroke>& drawn, const std::vector<StrokeInput>& strokes,
                     const std::vector<recognition::CrossingStrokes>& crossings, ImportedCharacter& result);
 

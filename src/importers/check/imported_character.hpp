@@ -1,4 +1,4 @@
-// One imported character before it enters a CharacterList; private to the import.
+// An imported character before it enters a CharacterList; private to the importers.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct ImportedStroke {
   std::string label;        ///< empty if there is none
   bool label_known = false;
   bool label_agrees = false;
-  bool contradicts_label = false;  ///< clearly, if measured
+  bool contradicts_label = false;  ///< beyond doubt; set only if measured
 };
 
 struct ImportedCharacter {
@@ -23,8 +23,8 @@ struct ImportedCharacter {
   std::vector<ImportedStroke> strokes;
   std::vector<StrokeMeasures> measures;  ///< if asked for
   InkMeasures ink;                       ///< of this character, if asked for
-  InkMeasures plain_ink;                 ///< the same without offsets
-  InkMeasures typical_ink;               ///< the same of typical ink
+  InkMeasures plain_ink;                 ///< the same for ink without offsets
+  InkMeasures typical_ink;               ///< the same for typical ink
   CrossingCount crossings;
   std::vector<LostCrossing> lost_crossings;
   bool letters_unused = false;

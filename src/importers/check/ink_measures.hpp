@@ -10,7 +10,7 @@
 
 namespace calligraphy::recognition {
 
-/// The outlines of a character's strokes, closed polygons, and the ink of the same strokes: measures of one character.
+/// Measures the ink of one character's strokes against their outlines, which are closed polygons.
 InkMeasures measure_ink(std::span<const std::span<const Point>> outlines, std::span<const std::vector<InkDisc>> inks);
 
 }  // namespace calligraphy::recognition

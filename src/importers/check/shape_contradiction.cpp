@@ -33,7 +33,7 @@ bool is_simple(int id) { return typical_stroke(id).elements.size() == 1; }
 
 bool is_one_of(int id, std::span<const int> ids) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
 
-/// True for a stroke that ends with a hook; that of a heng gou is rather the limb of a heng pie.
+/// True for a stroke that ends with a hook; that of a heng gou looks more like the limb of a heng pie.
 bool has_hook(int id) {
   constexpr int hooked[] = {12, 13, 14, 15, 18, 20, 21, 22, 27, 28, 31, 35};
   return is_one_of(id, hooked);

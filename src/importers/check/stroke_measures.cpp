@@ -11,7 +11,7 @@ namespace calligraphy::recognition {
 namespace {
 
 /// How far the path runs back along the source, as a share of the source's length. Every point of the path is projected
-/// to the source within a quarter of its length about where it should be.
+/// onto the source, within a quarter of its length from where it is expected.
 double backward_share(std::span<const Point> path, std::span<const Point> source) {
   constexpr int projected = 48;
   constexpr int places = 161;
@@ -38,8 +38,8 @@ double backward_share(std::span<const Point> path, std::span<const Point> source
   return back;
 }
 
-/// A path at short equal steps, with its turn at each point: between the chords of length `window` that end, and begin,
-/// half of it before and after the point [degree].
+/// A path at short equal steps, with the turn at each point [degree]: between a chord of length `window` that ends half
+/// a window before the point, and one that begins half a window after it.
 struct TurningPath {
   Path points;
   std::vector<double> turns;
@@ -67,7 +67,7 @@ struct Corner {
   double distance;  ///< from the other path [em]
 };
 
-/// Such turns of one path, by more than `least` [degree].
+/// The turns of one path by more than `least` [degree] that the other lacks.
 std::vector<Corner> corners_without_counterpart(const TurningPath& one, const TurningPath& other, double window,
                                                 double least) {
   const double near = 2.0 * window + 0.02;  // [em]
@@ -76,7 +76,7 @@ std::vector<Corner> corners_without_counterpart(const TurningPath& one, const Tu
   for (std::size_t i = 0; i < one.points.size(); ++i) {
     const double turn = one.turns[i];
     if (turn <= least) continue;
-    bool is_peak = true;  // the first of equal ones
+    bool is_peak = true;  // the first among equals
     for (std::size_t k = 0; k < one.points.size() && is_peak; ++k) {
       if (k == i || (one.points[k] - one.points[i]).norm() > window) continue;
       is_peak = one.turns[k] < turn || (one.turns[k] == turn && k > i);

@@ -1,4 +1,4 @@
-// How imported strokes follow their source (docs/strokes.md); private to the importers.
+// How well imported strokes follow their source (docs/strokes.md); private to the importers.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace calligraphy::recognition {
 
-/// Measures of the path of a stroke against the path that it was fitted to, whose brush has this half-width [em].
-/// Place, id and distance are left empty.
+/// Measures the path of a stroke against the path that it was fitted to, drawn by a brush of this half-width [em].
+/// Leaves place, id and distance empty.
 StrokeMeasures measure_stroke(std::span<const Point> path, std::span<const Point> source, double half_width);
 
 }  // namespace calligraphy::recognition

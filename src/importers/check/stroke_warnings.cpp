@@ -24,7 +24,7 @@ using recognition::Path;
 
 constexpr double overlap_distance = 0.01;                     // [em]; a printed line is wider
 constexpr double outside_distance = 0.01;                     // [em]
-// To the typical start [rad]: of one element, as a dot that may fall to the left, and of the first of several.
+// From the typical start [rad]: of a single element, perhaps a dot that falls to the left, and of the first of several.
 constexpr double against = 100.0 * std::numbers::pi / 180.0;
 constexpr double first_against = 80.0 * std::numbers::pi / 180.0;
 constexpr double max_dot = 0.15;    // [em]
@@ -32,12 +32,12 @@ constexpr double min_start = 0.02;  // [em]; anything shorter has no direction
 constexpr int curve_steps = 24;
 constexpr double max_step = 0.02;  // [em]
 
-// Of a stroke against its drawing.
+// For a stroke compared with its drawing.
 constexpr double most_turn = 135.0;     // [degree]; a hook turns back less
 constexpr double fragment = 1.0 / 3.0;  // [1]; of the size of the outline
-constexpr double least_length = 0.8;    // [1]; of the drawing without the ends that the brush writes
+constexpr double least_length = 0.8;    // [1]; of the drawing without the ends that the tip of the brush covers
 constexpr double most_length = 1.1;     // [1]
-constexpr double round_corner = 0.03;   // [em]; a drawing this near rounds the same corner
+constexpr double round_corner = 0.03;   // [em]; within this, the drawing rounds the same corner
 constexpr double most_distance = 0.04;  // [em]
 
 /// One element of a stroke as a polyline, without its first point.
@@ -109,7 +109,7 @@ std::string name_with_id(int id) {
   return std::to_string(id) + " (" + std::string(type.name) + " " + std::string(type.pinyin) + ")";
 }
 
-/// What the curve has instead of the shape of the recorded type; empty if it has that. A short element has the shape of
+/// How the curve contradicts the recorded type, in words; empty if it does not. A short element has the shape of
 /// many types, a heng may rise like a ti, and a heng zhe end with the lift of a brush, which looks like a hook.
 std::string other_shape(const Stroke& stroke, const Path& path) {
   const int id = stroke.type->id;
@@ -140,7 +140,7 @@ std::string label_with_names(const std::string& label) {
   return label + " (" + names + ")";
 }
 
-std::string words_for(const LabelConflict& conflict) {
+std::string description_of(const LabelConflict& conflict) {
   const std::string recognised = name_with_id(conflict.recognised);
   if (conflict.resolution == LabelResolution::unknown)
     return "label " + conflict.label + " is unknown; the shape is that of " + recognised;
@@ -181,25 +181,25 @@ void add_measures(const StrokeMeasures& stroke, std::vector<StrokeWarning>& warn
   }
 }
 
-/// What the labels, measures and crossings of an import say.
+/// The warnings that follow from the labels, measures and crossings of an import.
 SourceWarnings source_warnings(const ImportReport& report) {
   SourceWarnings warnings;
-  const auto of = [&](const StrokeReference& place) -> std::vector<StrokeWarning>& {
+  const auto warnings_of = [&](const StrokeReference& place) -> std::vector<StrokeWarning>& {
     return warnings[{place.code, place.order}];
   };
   for (const LabelConflict& conflict : report.label_conflicts) {
     if (!conflict.certain && conflict.resolution != LabelResolution::unknown) continue;
-    of(conflict.place).push_back({conflict.place.stroke, StrokeWarningKind::label, words_for(conflict)});
+    warnings_of(conflict.place).push_back({conflict.place.stroke, StrokeWarningKind::label, description_of(conflict)});
   }
-  for (const StrokeMeasures& stroke : report.measures) add_measures(stroke, of(stroke.place));
+  for (const StrokeMeasures& stroke : report.measures) add_measures(stroke, warnings_of(stroke.place));
   for (const auto& [place, other] : report.lost_crossings) {
-    of(place).push_back({place.stroke, StrokeWarningKind::crossing,
-                         "crosses stroke " + std::to_string(other) + " in the drawing, but not as imported"});
+    warnings_of(place).push_back({place.stroke, StrokeWarningKind::crossing,
+                                  "crosses stroke " + std::to_string(other) + " in the drawing, but not as imported"});
   }
   return warnings;
 }
 
-/// The warnings of a character, by stroke and kind, without those of the type where a label contradicts the drawing.
+/// The warnings of a character, by stroke and kind, without those about the type where a label contradicts the drawing.
 std::vector<StrokeWarning> merged(std::vector<StrokeWarning> warnings, const std::vector<StrokeWarning>& of_source) {
   std::erase_if(warnings, [&](const StrokeWarning& warning) {
     return warning.kind == StrokeWarningKind::type &&

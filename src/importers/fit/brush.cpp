@@ -42,7 +42,7 @@ bool is_droop(double piece, double body) {
   return contains({-112.0, -20.0}, body) && turn < -12.0 && turn > -75.0;
 }
 
-/// A heng may be pressed longer at its end than other strokes.
+/// At its end, a heng may be pressed for longer than other strokes.
 bool is_press(double piece, double body) {
   const double turn = wrapped(piece - body);
   return contains({-10.0, 25.0}, body) && turn < -12.0 && turn > -70.0;
@@ -94,7 +94,7 @@ std::size_t droop_vertices(std::span<const Point> path, double length) {
   return cut;
 }
 
-CleanPath as_it_is(std::span<const Point> points) {
+CleanPath as_drawn(std::span<const Point> points) {
   constexpr double reach = 0.04;           // [em]
   constexpr std::size_t max_points = 512;  // more points add less detail than a pen can show
   constexpr double simplification = 2e-5;  // [em]
@@ -110,7 +110,7 @@ CleanPath as_it_is(std::span<const Point> points) {
 }  // namespace
 
 CleanPath clean_median(std::span<const Point> median) {
-  CleanPath clean = as_it_is(median);
+  CleanPath clean = as_drawn(median);
   const Path path = clean.points;
   const double length = path_length(path);
   const std::size_t entry = entry_vertices(path, length);
@@ -123,6 +123,6 @@ CleanPath clean_median(std::span<const Point> median) {
   return clean;
 }
 
-CleanPath clean_pen_path(std::span<const Point> path) { return as_it_is(path); }
+CleanPath clean_pen_path(std::span<const Point> path) { return as_drawn(path); }
 
 }  // namespace calligraphy::recognition

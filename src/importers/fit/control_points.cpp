@@ -12,14 +12,14 @@ namespace calligraphy::recognition {
 namespace {
 
 constexpr int most_steps = 24;
-constexpr int unweighted_steps = 2;      // before points that are far off weigh more
-constexpr double close_enough = 0.010;   // [em]; with no point farther off, the steps end
-constexpr double still_improving = 0.95; // [1]; unless the last one reduced the distance by more than this
+constexpr int unweighted_steps = 2;      // before distant points are given more weight
+constexpr double close_enough = 0.010;   // [em]; the steps end once no point is farther off
+constexpr double still_improving = 0.95; // [1]; unless the last step brought the distance below this share
 constexpr double weight_of_ends = 3.0;
 constexpr double least_weight = 0.02;
-constexpr double ridge = 5e-2;  // pull towards the present points, which holds the handles of a nearly straight curve
-constexpr double least_share = 0.15;  // [1]; no handle at a smooth joint becomes shorter than this in one step
-constexpr double least_handle = 0.01;  // [em]; or ever shorter than this, so that it keeps its direction when rounded
+constexpr double ridge = 5e-2;  // pull towards the current points; steadies the handles of a nearly straight curve
+constexpr double least_share = 0.15;  // [1]; no handle at a smooth joint shrinks below this in one step
+constexpr double least_handle = 0.01;  // [em]; nor ever below this, so that it keeps its direction when rounded
 constexpr int curve_pieces = 24;
 
 constexpr std::size_t most_points = 1 + 3 * max_elements_per_stroke;
@@ -32,7 +32,7 @@ Point unit(const Point& vector) {
   return norm > 1e-12 ? Point(vector / norm) : Point(1.0, 0.0);
 }
 
-/// Where the elements of a stroke begin among its control points, and where the last one ends.
+/// The control points at which the elements of a stroke begin, and the one at which the last element ends.
 std::vector<std::size_t> starts_of(std::string_view elements) {
   std::vector<std::size_t> starts{0};
   for (const char kind : elements) starts.push_back(starts.back() + (kind == 'L' ? 1 : 3));
@@ -62,7 +62,7 @@ class ControlPointSolver {
   const std::vector<Point>& points() const { return points_; }
 
   /// Least squares of the weighted distances of the path from the stroke at parameters `places` (element + t). False if
-  /// there is no unique solution; the points then stay.
+  /// there is no unique solution; the points are then unchanged.
   bool solve(const Path& path, std::span<const double> places, std::span<const double> weights) {
     accumulate(path, places, weights);
     arrange_unknowns();
@@ -180,7 +180,7 @@ class ControlPointSolver {
     }
   }
 
-  /// Turns the handles at smooth joints into the direction of the other side.
+  /// Aligns the handles at smooth joints with the other side of the joint.
   void straighten() {
     for_each_smooth_joint([&](std::size_t joint, const Point& direction, bool before, bool after) {
       if (before) points_[joint - 1] = points_[joint] - (points_[joint - 1] - points_[joint]).norm() * direction;
@@ -198,7 +198,7 @@ class ControlPointSolver {
   Eigen::Matrix<double, Eigen::Dynamic, 2, 0, most_points, 2> right_;
 };
 
-/// A stroke as a polyline whose vertices know their parameter and their arc length.
+/// A vertex of a stroke as a polyline.
 struct Vertex {
   Point point;
   double place;  ///< element + t
@@ -230,7 +230,7 @@ std::vector<Vertex> vertices_of(std::string_view elements, std::span<const Point
   return vertices;
 }
 
-/// Makes the values non-decreasing, at the least sum of squared changes (pool adjacent violators).
+/// Makes the values non-decreasing, with the least sum of squared changes (pool adjacent violators).
 void put_in_order(std::span<double> values) {
   struct Pool {
     double mean;
@@ -254,7 +254,7 @@ void put_in_order(std::span<double> values) {
   }
 }
 
-/// Assigns each point of the path to the nearest place of the stroke within reach of its present one, in order. Returns
+/// Assigns each point of the path to the nearest place on the stroke within reach of its current one, in order. Returns
 /// the distances [em].
 std::vector<double> assign(std::string_view elements, std::span<const Point> points, const Path& path,
                            std::span<double> places) {
@@ -303,7 +303,7 @@ std::vector<double> assign(std::string_view elements, std::span<const Point> poi
     const Point& from = vertices[segment - 1].point;
     distances[i] = (path[i] - from - share_in(segment, places[i]) * (vertices[segment].point - from)).norm();
   }
-  // A corner may lie farther from the path than any point of the path from the stroke.
+  // A corner may be farther from the path than any point of the path is from the stroke.
   std::size_t after = 1;
   std::size_t at_joint = 0;
   for (std::size_t element = 0; element + 1 < elements.size(); ++element) {
@@ -317,7 +317,7 @@ std::vector<double> assign(std::string_view elements, std::span<const Point> poi
   return distances;
 }
 
-/// The control points to start from: joints on the path, and curves through it at one and two thirds of an element.
+/// The initial control points: joints on the path, and curves through it at one and two thirds of an element.
 std::vector<Point> first_points(std::string_view elements, const Path& path, std::span<const std::size_t> ends) {
   std::vector<Point> points{path[ends[0]]};
   for (std::size_t element = 0; element < elements.size(); ++element) {
@@ -336,7 +336,7 @@ std::vector<Point> first_points(std::string_view elements, const Path& path, std
   return points;
 }
 
-/// The places of the path's points in the stroke by their share of each element's arc.
+/// The initial places of the path's points on the stroke, by their share of each element's arc.
 std::vector<double> first_places(const Path& path, std::span<const std::size_t> ends) {
   std::vector<double> places(path.size());
   for (std::size_t element = 0; element + 1 < ends.size(); ++element) {
@@ -348,7 +348,7 @@ std::vector<double> first_places(const Path& path, std::span<const std::size_t> 
   return places;
 }
 
-/// Lets points weigh more the farther off they are, which tends to the least maximum distance (Lawson 1961).
+/// Gives points more weight the farther off they are, which approaches the least maximum distance (Lawson 1961).
 void weigh_by_distance(std::span<const double> distances, double farthest, std::span<double> weights) {
   double sum = 0.0;
   for (std::size_t i = 0; i < weights.size(); ++i) {

@@ -12,9 +12,9 @@
 
 namespace calligraphy::recognition {
 
-/// Fits the control points of a stroke of this type, with these elements, to a path whose points are equally far apart,
-/// given the points where its elements begin and the last one ends. Linear least squares for all control points at once
-/// alternates with the assignment of each point of the path to the nearest place of the stroke, in the order of both.
+/// Fits the control points of a stroke of this type, with these elements, to a path of evenly spaced points, given the
+/// points where its elements begin and the last one ends. Linear least squares for all control points alternates with
+/// the assignment of each point of the path to the nearest place on the stroke, in the order of both.
 /// Smooth joints stay smooth; the ends of the stroke are near those of the path.
 std::vector<Point> fit_control_points(const TypicalStroke& type, std::string_view elements, const Path& path,
                                       std::span<const std::size_t> ends);

@@ -6,14 +6,14 @@
 namespace calligraphy::recognition {
 namespace {
 
-constexpr double nearest_end = 0.02;    // [em]; of the source, within which a fitted end may be drawn out
-constexpr double most_drawn = 0.03;     // [em]
-constexpr double least_margin = 0.002;  // [em] beyond the crossing: more than rounding to standard precision undoes
-constexpr double margin = 0.003;        // [em] beyond the crossing, of an end that is drawn out
+constexpr double nearest_end = 0.02;    // [em]; from the end in the source; nearer, the fitted end may be extended
+constexpr double longest = 0.03;        // [em]; of an extension
+constexpr double least_margin = 0.002;  // [em] beyond the crossing: more than rounding to standard precision can undo
+constexpr double margin = 0.003;        // [em] beyond the crossing, of an end that is extended
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// An end of a stroke, as fitted, that may be drawn out.
+/// An end of a fitted stroke that may be extended.
 struct StrokeEnd {
   bool at_start;
   Point tip;
@@ -31,10 +31,10 @@ std::optional<StrokeEnd> end_near(double at, double source_length, const StrokeI
   return StrokeEnd{at_start, tip, outwards.normalized()};
 }
 
-/// The path with one of its ends drawn out as far as allowed.
-Path drawn_out(Path path, const std::optional<StrokeEnd>& end) {
+/// The path with one of its ends extended as far as allowed.
+Path extended(Path path, const std::optional<StrokeEnd>& end) {
   if (!end) return path;
-  const Point tip = end->tip + most_drawn * end->outwards;
+  const Point tip = end->tip + longest * end->outwards;
   path.insert(end->at_start ? path.begin() : path.end(), tip);
   return path;
 }
@@ -43,15 +43,15 @@ double from_tip(const StrokeEnd& end, double at, const Path& path) {
   return end.at_start ? at : path_length(path) - at;
 }
 
-/// True if the end, where there is one, lies farther beyond the place at arc length `at` than rounding undoes.
+/// True if the end, if there is one, lies farther beyond the place at arc length `at` than rounding can undo.
 bool reaches_beyond(const std::optional<StrokeEnd>& end, double at, const Path& path) {
   return !end || from_tip(*end, at, path) >= least_margin;
 }
 
-/// Moves the end beyond the place at arc length `at` of the path that was drawn out. False if that is not necessary.
+/// Moves the end beyond the place at arc length `at` of the extended path. False if that is not necessary.
 bool move_end(const std::optional<StrokeEnd>& end, double at, const Path& longer, StrokeInput& stroke) {
   if (!end) return false;
-  const double missing = most_drawn - from_tip(*end, at, longer);
+  const double missing = longest - from_tip(*end, at, longer);
   if (missing <= -least_margin) return false;
   (end->at_start ? stroke.control_points.front() : stroke.control_points.back()) += (missing + margin) * end->outwards;
   return true;
@@ -115,8 +115,8 @@ std::vector<std::size_t> keep_crossings(std::span<const CrossingStrokes> crossin
     const auto other_end = end_near(at.on_other, path_length(sources[other]), strokes[other]);
     const auto now = crossing_of(path, other_path);
     if (now && reaches_beyond(end, now->on_one, path) && reaches_beyond(other_end, now->on_other, other_path)) continue;
-    const Path longer = drawn_out(path, end);
-    const Path other_longer = drawn_out(other_path, other_end);
+    const Path longer = extended(path, end);
+    const Path other_longer = extended(other_path, other_end);
     const auto meeting = crossing_of(longer, other_longer);
     if (!meeting) continue;
     if (move_end(end, meeting->on_one, longer, strokes[one])) changed.push_back(one);

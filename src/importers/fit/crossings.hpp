@@ -27,14 +27,14 @@ struct CrossingStrokes {
   Crossing at;
 };
 
-/// The path of a stroke in the source, less a half-width of the brush at both ends: what crosses there only touches.
+/// The path of a source stroke without a half-width of the brush at either end: strokes that cross there only touch.
 Path without_ends(std::span<const Point> path, double half_width);
 
 /// All pairs of paths that cross. O(paths^2).
 std::vector<CrossingStrokes> crossing_strokes(std::span<const Path> paths);
 
-/// Draws out ends of strokes, along their direction, where they cross in the source near an end but, as fitted, do not,
-/// or by less than rounding may undo. Returns the strokes that it changed.
+/// Extends strokes at an end, along its direction, where they cross in the source near that end but, as fitted, do not,
+/// or so narrowly that rounding may undo it. Returns the strokes that it changed.
 std::vector<std::size_t> keep_crossings(std::span<const CrossingStrokes> crossings, std::span<const Path> sources,
                                         std::span<StrokeInput> strokes);
 

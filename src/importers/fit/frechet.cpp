@@ -19,11 +19,11 @@ double greedy_leash(const Path& rows, const Path& columns) {
   std::size_t j = 0;
   double leash = squared_distance(rows[0], columns[0]);
   while (i + 1 < rows.size() || j + 1 < columns.size()) {
-    const bool may_down = i + 1 < rows.size();
-    const bool may_right = j + 1 < columns.size();
-    const double down = may_down ? squared_distance(rows[i + 1], columns[j]) : unreachable;
-    const double right = may_right ? squared_distance(rows[i], columns[j + 1]) : unreachable;
-    const double both = may_down && may_right ? squared_distance(rows[i + 1], columns[j + 1]) : unreachable;
+    const bool can_go_down = i + 1 < rows.size();
+    const bool can_go_right = j + 1 < columns.size();
+    const double down = can_go_down ? squared_distance(rows[i + 1], columns[j]) : unreachable;
+    const double right = can_go_right ? squared_distance(rows[i], columns[j + 1]) : unreachable;
+    const double both = can_go_down && can_go_right ? squared_distance(rows[i + 1], columns[j + 1]) : unreachable;
     const double least = std::min({down, right, both});
     if (down == least || both == least) ++i;
     if (right == least || both == least) ++j;
@@ -41,9 +41,9 @@ double frechet_distance(std::span<const Point> path, std::span<const Point> sour
   const std::size_t count = columns.size();
   const double column_step = path_length(source) / static_cast<double>(count - 1);
   const auto free_columns = std::min(count - 1, static_cast<std::size_t>(free / std::max(column_step, 1e-12)));
-  // The best walk passes no pair of points that are farther apart than the leash of any other.
+  // The best walk passes no pair of points farther apart than the leash of any other walk.
   const double most = greedy_leash(rows, columns);
-  // least[j]: squared leash of the best walk to the present row and column j; first to last: columns that are reached.
+  // least[j]: squared leash of the best walk to the current row and column j; first to last: columns that are reached.
   std::vector<double> least(count, unreachable);
   std::size_t first = 0;
   std::size_t last = 0;

@@ -1,4 +1,4 @@
-// The distance of two paths that keeps their order; private to the importers.
+// The distance between two paths, which respects their order; private to the importers.
 #pragma once
 
 #include <span>
@@ -10,9 +10,9 @@
 namespace calligraphy::recognition {
 
 /// Discrete Fréchet distance of a path to its source [em] (Eiter and Mannila 1994): the shortest leash with which one
-/// can walk along both at once without going back. Points are set every `step` [em], at most 1,200 on each; so it is
-/// at most one step above the distance of the curves, and below by at most half a step, where it passes a vertex. The
-/// path may begin at any place of the source within `free` [em] of its start, and end within as much of its end.
+/// can walk along both at once without going back. Points are placed every `step` [em], at most 1,200 on each: the
+/// result is at most one step above the distance of the curves and, where it passes a vertex, half a step below. The
+/// path may begin anywhere on the source within `free` [em] of its start, and end as near its end.
 /// O(product of the numbers of points).
 double frechet_distance(std::span<const Point> path, std::span<const Point> source, double free, double step);
 

@@ -1,6 +1,6 @@
-// The edge of the ink is moved onto the outline, by least squares over points of the edge. Each point asks for as much
-// as the outline is away along the normal there, weighted with the inverse of that: what becomes least is then the sum
-// of the distances, the area between ink and outline, and no far corner of the outline pulls.
+// Moves the edge of the ink onto the outline by least squares over points of the edge. The target of each point is the
+// outline along the normal there, with the inverse of the distance as its weight: this minimises the sum of distances,
+// the area between ink and outline, so that no distant corner of the outline dominates.
 #include "ink_fit.hpp"
 
 #include <algorithm>
@@ -24,18 +24,18 @@ constexpr double least_half_width = 0.001;  // [em]
 
 using Values = std::array<double, ink_knot_count>;
 
-/// Where a disc is among the knots: after `knot`, by a share of the way to the next.
+/// The position of a disc among the knots: past `knot`, by a share of the way to the next.
 struct Place {
   int knot;
   double share;
 
-  double of(const Values& values) const {
+  double interpolate(const Values& values) const {
     const auto k = static_cast<std::size_t>(knot);
     return values[k] + share * (values[k + 1] - values[k]);
   }
 };
 
-/// What stays the same while the profile changes: the line of the discs without offsets, at equal steps.
+/// The line of the discs without offsets, at equal steps, which stays the same while the profile changes.
 struct SampledLine {
   Path points;
   Path sideways;  ///< unit vectors
@@ -60,8 +60,8 @@ SampledLine line_along(std::span<const Point> path, double start, double end, do
   return line;
 }
 
-/// The values at the knots that come nearest to one sample at each place.
-Values through(const std::vector<Place>& places, const std::vector<double>& samples) {
+/// The values at the knots that fit one sample at each place best.
+Values knot_values(const std::vector<Place>& places, const std::vector<double>& samples) {
   Eigen::Matrix<double, knots, knots> matrix = 1e-9 * Eigen::Matrix<double, knots, knots>::Identity();
   Eigen::Vector<double, knots> right = Eigen::Vector<double, knots>::Zero();
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -76,7 +76,7 @@ Values through(const std::vector<Place>& places, const std::vector<double>& samp
   return values;
 }
 
-/// From the discs that fit into the outline, about points of the median or of the path itself.
+/// The initial ink: of the discs that fit into the outline about points of the median or of the path itself.
 StrokeInk first_ink(std::span<const Point> path, std::span<const Point> median, std::span<const Point> outline,
                     InkDetail detail) {
   constexpr double spacing = 0.015;  // [em]
@@ -90,9 +90,9 @@ StrokeInk first_ink(std::span<const Point> path, std::span<const Point> median, 
     radii.push_back(inscribed_radius(outline, is_sideways ? on_median[i] : line.points[i]));
     offsets.push_back((on_median[i] - line.points[i]).dot(line.sideways[i]));
   }
-  ink.half_widths = through(line.places, radii);
+  ink.half_widths = knot_values(line.places, radii);
   for (double& half_width : ink.half_widths) half_width = std::max(half_width, least_half_width);
-  if (is_sideways) ink.offsets = through(line.places, offsets);
+  if (is_sideways) ink.offsets = knot_values(line.places, offsets);
   return ink;
 }
 
@@ -108,18 +108,18 @@ class InkFit {
   }
 
  private:
-  // What may change: half-widths, offsets, and how far the ends are drawn out.
+  // The unknowns: half-widths, offsets, and how far the ends extend.
   static constexpr int first_offset = knots, first_end = 2 * knots, unknowns = 2 * knots + 2;
 
   void improve() {
-    constexpr double towards_now = 0.02;  // [1] of the mean weight: what the edge does not determine stays
+    constexpr double damping = 0.02;  // [1] of the mean weight; holds what the edge does not determine
     constexpr double most = 0.02;         // [em]
     constexpr double farthest = 0.5;      // [em]
     lay_discs();
     matrix_.setZero();
     right_.setZero();
     for (std::size_t i = 0; i < discs_.size(); ++i) add_points(i);
-    matrix_.diagonal().array() += towards_now * matrix_.trace() / unknowns + 1e-12;
+    matrix_.diagonal().array() += damping * matrix_.trace() / unknowns + 1e-12;
     const Eigen::Vector<double, unknowns> change = matrix_.ldlt().solve(right_).cwiseMax(-most).cwiseMin(most);
     const auto move = [&](double& value, int unknown, double least) {
       value = std::clamp(value + change[unknown], least, farthest);
@@ -139,14 +139,15 @@ class InkFit {
     largest_step_ = 1e-9;
     for (std::size_t i = 0; i < line_.points.size(); ++i) {
       const Place& place = line_.places[i];
-      discs_.push_back({line_.points[i] + place.of(ink_.offsets) * line_.sideways[i], place.of(ink_.half_widths)});
+      const Point centre = line_.points[i] + place.interpolate(ink_.offsets) * line_.sideways[i];
+      discs_.push_back({centre, place.interpolate(ink_.half_widths)});
       if (i == 0) continue;
       const double step = (discs_[i].centre - discs_[i - 1].centre).norm();
       largest_step_ = std::max(largest_step_, step + std::abs(discs_[i].radius - discs_[i - 1].radius));
     }
   }
 
-  /// The points of the edge at a disc: on both sides and, at an end, round it.
+  /// Adds the points of the edge at a disc: on both sides and, at an end, around it.
   void add_points(std::size_t i) {
     constexpr double steepest = 0.95;  // growth of the radius; a disc that grows faster hides the one before
     constexpr int rays = 4;            // on each side of an end
@@ -171,11 +172,11 @@ class InkFit {
     }
   }
 
-  /// A point of the edge of disc i in a direction, which stands for a length of the edge. It moves outward with the end
-  /// by `endways`.
+  /// Adds the point of the edge of disc i in a direction, which represents a length of the edge. As the end moves, it
+  /// moves outward by `endways` times as much.
   void add_point(std::size_t i, const Point& direction, double length, double endways = 0.0) {
-    constexpr double nearest = 0.008;  // [em]; less is as good as on the outline
-    constexpr double outside = 0.8;    // weight of what the ink has too much of: less, as it adds to the union alone
+    constexpr double nearest = 0.008;  // [em]; anything nearer counts as on the outline
+    constexpr double outside = 0.8;    // weight of ink outside the outline: less, as it only adds to the union
     const Point point = discs_[i].centre + discs_[i].radius * direction;
     if (is_covered(point)) return;
     const double distance = distance_to_outline(point, direction);
@@ -198,13 +199,13 @@ class InkFit {
     for (std::size_t i = 0; i < discs_.size();) {
       const double clear = (point - discs_[i].centre).norm() - discs_[i].radius;
       if (clear < -within) return true;
-      // As many discs cannot come near enough.
+      // Skips discs that cannot be near enough.
       i += std::max<std::size_t>(1, static_cast<std::size_t>((clear + within) / largest_step_));
     }
     return false;
   }
 
-  /// How far the outline is from a point in a direction; behind it, and negative, if the point is outside. At most
+  /// Distance from a point to the outline in a direction; negative, behind the point, if that is outside. At most
   /// 0.05 em.
   double distance_to_outline(const Point& point, const Point& direction) const {
     constexpr double reach = 0.05;  // [em]
@@ -236,7 +237,7 @@ class InkFit {
   StrokeInk ink_;
   SampledLine line_;
   std::vector<InkDisc> discs_;
-  double largest_step_ = 0.0;  ///< by which the edge of the next disc may be nearer to a point [em]
+  double largest_step_ = 0.0;  ///< how much nearer to a point the edge of the next disc can be [em]
   Eigen::Matrix<double, unknowns, unknowns> matrix_;
   Eigen::Vector<double, unknowns> right_;
 };

@@ -10,8 +10,8 @@
 
 namespace calligraphy::recognition {
 
-/// The ink along a path that covers the outline of a brush stroke best: the path is that of the stroke fitted to the
-/// median, and the outline a closed polygon of at least three vertices, all in em (docs/strokes.md).
+/// The ink along a path that best covers the outline of a brush stroke. The path is that of the stroke fitted to the
+/// median, the outline a closed polygon of at least three vertices, all in em (docs/strokes.md).
 StrokeInk fit_ink(std::span<const Point> path, std::span<const Point> median, std::span<const Point> outline,
                   InkDetail detail);
 

@@ -34,7 +34,7 @@ double PieceResiduals::residual(std::size_t first, std::size_t last, int degree)
   const Point m1 = (sums[1] - centre * sums[0]) / half;
 
   // The discrete orthogonal (Gram) polynomials on n equal steps: 1, v, v^2 - v2 / n, v^3 - (v4 / v2) v, where vk is the
-  // sum of v^k. Each takes off its share.
+  // sum of v^k. Each reduces what is left.
   double left = to.squared - from.squared - m0.squaredNorm() / n;
   if (n < 2.0) return std::max(0.0, left);
   const double v2 = n * (n + 1.0) / (3.0 * (n - 1.0));

@@ -9,9 +9,9 @@
 
 namespace calligraphy::recognition {
 
-/// What is left of pieces of a path by their least-squares polynomials, in constant time each, from prefix sums. The
-/// points of the path are equally far apart, and the polynomials are functions of the arc length: so a piece that runs
-/// back over itself is not a line, although all of it lies on one.
+/// Residuals of pieces of a path from their least-squares polynomials, each in constant time from prefix sums. The
+/// points of the path are evenly spaced, and the polynomials are functions of arc length, so that a piece that doubles
+/// back is not a line, although all of it lies on one.
 class PieceResiduals {
  public:
   explicit PieceResiduals(std::span<const Point> path);

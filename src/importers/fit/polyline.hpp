@@ -26,7 +26,7 @@ double path_length(std::span<const Point> path);
 /// Bounding box of the points.
 Eigen::AlignedBox2d box_of(std::span<const Point> points);
 
-/// `count` points, at least 2, equally far along the path from arc length `from` to `to` [em].
+/// `count` points, at least 2, evenly spaced along the path from arc length `from` to `to` [em].
 Path resampled(std::span<const Point> path, int count, double from, double to);
 
 /// The whole path with a point every `step` [em] or less, in at most `most` points.

@@ -9,8 +9,8 @@ namespace calligraphy::recognition {
 namespace {
 
 constexpr std::size_t most_joints = 48;
-constexpr double free_turn = 35.0;          // [degree] from the typical direction, without cost
-constexpr double price_of_degree = 0.0005;  // [em]; of turns beyond that
+constexpr double free_turn = 35.0;          // [degree] from the typical direction, free of cost
+constexpr double price_of_degree = 0.0005;  // [em]; for turns beyond that
 constexpr double unreached = std::numeric_limits<double>::infinity();
 
 /// Directions of an element in the typical stroke [degree]; if that is a line, all the same.
@@ -38,7 +38,7 @@ double turn_beyond(const Point& from, const Point& to, double typical) {
   return std::max(0.0, std::abs(wrapped(direction_of(to - from) - typical)) - free_turn);
 }
 
-/// What it costs that points `from` to `to` of the path have other directions than the typical element [em^2].
+/// Cost of the deviation of points `from` to `to` of the path from the directions of the typical element [em^2].
 double price_of_directions(const Path& path, std::size_t from, std::size_t to, char kind,
                            const ElementDirections& typical) {
   double turn;

@@ -15,15 +15,15 @@ namespace calligraphy::recognition {
 
 struct Division {
   double cost = std::numeric_limits<double>::infinity();  ///< [em^2]
-  std::vector<std::size_t> ends;  ///< first point of each element, and last of all; empty if there are too few points
+  std::vector<std::size_t> ends;  ///< first point of each element, then the last point; empty if there are too few
 };
 
-/// Divides one path among the elements of several typical strokes. The cost is the mean square of what a line or
-/// cubic of constant speed leaves of each element, and of how far the elements turn from the directions that they have
-/// in the typical stroke.
+/// Divides one path among the elements of several typical strokes. The cost is the mean square of the residuals of
+/// each element from a line or cubic of constant speed, and of its deviations from the directions of the typical
+/// stroke.
 class StrokeDivider {
  public:
-  /// @param path points equally far apart, which outlive the divider
+  /// @param path evenly spaced points, which must outlive the divider
   explicit StrokeDivider(const Path& path);
 
   /// The division of least cost, by dynamic programming over at most 95 places for the joints.
@@ -36,7 +36,7 @@ class StrokeDivider {
   const Path& path_;
   PieceResiduals pieces_;
   std::vector<std::size_t> places_;   ///< points where an element may begin and end
-  std::vector<double> residuals_;     ///< of pieces between places, of lines and curves; below 0 if not yet known
+  std::vector<double> residuals_;     ///< of pieces between places, as line and as curve; negative if not yet known
 };
 
 }  // namespace calligraphy::recognition

@@ -1,4 +1,4 @@
-// Fits a path as a typical stroke: those that a label allows, or that geometry alone recognises, in order of likelihood
+// Fits typical strokes to a path: those that a label allows or that geometry alone recognises, the likeliest first,
 // until one follows the path.
 #include <calligraphy/importers/stroke_fit.hpp>
 
@@ -108,28 +108,27 @@ class Fit {
   explicit Fit(std::span<const Point> path, const BrushEnds& ends)
       : path_(samples(path, ends)), divider_(path_), follows_(std::min(0.018, 0.1 * path_length(path_))) {}
 
-  /// Of strokes that a label allows, the first that follows the path, or else the closest; of strokes that geometry
-  /// recognises, the first, unless that misses a corner. A line that does not follow the path gives way to a curve, and
-  /// a heng zhe that is far from it to one with a hook, if the label allows that. Without control points if none is
-  /// usable.
+  /// Among strokes that a label allows, the first that follows the path, or else the closest; among those that geometry
+  /// recognises, the first, unless it misses a corner. A line that does not follow the path gives way to a curve, and a
+  /// heng zhe far from it to one with a hook, if the label allows that. Has no control points if no stroke is usable.
   Attempt best(std::span<const int> ids, bool labelled) {
     constexpr std::size_t most_tries = 3;
-    constexpr double bend = 0.027;  // [em]; a path farther from a stroke of one element has a corner
+    constexpr double bend = 0.027;  // [em]; a path this far from a stroke of one element has a corner
     const auto allows = [&](int id) { return !labelled || std::find(ids.begin(), ids.end(), id) != ids.end(); };
-    const auto will_do = [&](const Attempt& attempt) {
+    const auto is_acceptable = [&](const Attempt& attempt) {
       if (labelled || attempt.stroke.id == 0) return attempt.distance <= follows_;
       return attempt.distance <= bend || typical_stroke(attempt.stroke.id).elements.size() > 1;
     };
     Attempt best;
     for (std::size_t i = 0; i < std::min(ids.size(), most_tries); ++i) {
-      Attempt other = as(ids[i]);
+      Attempt other = fit_as(ids[i]);
       if (other.distance < best.distance) best = std::move(other);
-      if (will_do(best)) break;
+      if (is_acceptable(best)) break;
     }
     const int first = best.stroke.id;
     for (const auto& [id, instead, beyond] : alternatives) {
       if (id != first || !allows(instead) || best.distance <= std::max(follows_, beyond)) continue;
-      Attempt other = as(instead);
+      Attempt other = fit_as(instead);
       if (other.distance < best.distance) best = std::move(other);
     }
     return best;
@@ -148,8 +147,8 @@ class Fit {
     return sorted;
   }
 
-  /// The stroke with curves in place of lines, where those bring it closer to the path: as long as that is farther than
-  /// 1.8 % of the em, the curve that helps most, if it takes a tenth of the distance; three at most.
+  /// Replaces lines of the stroke by curves that bring it closer to the path: while it is more than 1.8 % of the em
+  /// away, the curve that helps most, if that reduces the distance by a tenth; three at most.
   StrokeInput bent(Attempt best) {
     constexpr double far_off = 0.018;    // [em]
     constexpr double improvement = 0.9;  // [1]
@@ -160,7 +159,7 @@ class Fit {
       for (char& element : elements) {
         if (element != static_cast<char>(ElementKind::line)) continue;
         element = static_cast<char>(ElementKind::curve);
-        Attempt other = as(best.stroke.id, elements);
+        Attempt other = fit_as(best.stroke.id, elements);
         if (other.distance < closest.distance) closest = std::move(other);
         element = static_cast<char>(ElementKind::line);
       }
@@ -188,7 +187,7 @@ class Fit {
     return resampled(path, count, ends.start, length - ends.end);
   }
 
-  Attempt as(int id, std::string_view elements) {
+  Attempt fit_as(int id, std::string_view elements) {
     constexpr double step = 0.008;  // [em]
     const TypicalStroke& type = typical_stroke(id);
     const Division division = divider_.divide(type, elements);
@@ -201,9 +200,9 @@ class Fit {
     return {std::move(stroke), distance};
   }
 
-  Attempt as(int id) { return as(id, typical_stroke(id).elements); }
+  Attempt fit_as(int id) { return fit_as(id, typical_stroke(id).elements); }
 
-  Path path_;  ///< at equal steps, without the ends that the brush writes
+  Path path_;  ///< evenly spaced, without the ends that the tip of the brush covers
   StrokeDivider divider_;
   double follows_;  ///< distance within which a stroke follows the path: 1.8 % of the em, 10 % of a short path [em]
 };

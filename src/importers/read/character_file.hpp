@@ -1,4 +1,4 @@
-// Which character a file of a source draws, as its name says; private to the importers.
+// The character that a file of a source draws, according to its name; private to the importers.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ struct CharacterFile {
   std::string order;  ///< empty for the standard one
 };
 
-/// From a path within the source; nothing if that names no character.
+/// From the path of a file within the source; empty if it names no character.
 std::optional<CharacterFile> character_file(std::string_view path);
 
 }  // namespace calligraphy

@@ -32,7 +32,7 @@ struct DrawnStroke {
 struct Drawing {
   std::vector<DrawnStroke> strokes;  ///< in writing order
   std::string notice;                ///< the file's own copyright notice
-  bool letters_unused = false;       ///< there are letters for the character, but not one a stroke
+  bool letters_unused = false;       ///< there are letters for the character, but not one per stroke
 };
 
 /// `letters` label the strokes of hanzi-writer-data.

@@ -56,7 +56,7 @@ class Selection {
   std::set<std::tuple<SourceKind, char32_t, std::string>> seen_;
 };
 
-/// @throws FormatError if there is none, or of both kinds
+/// @throws FormatError if there are no files, or files of both kinds
 SourceKind kind_of(const std::vector<DrawingFile>& files, const std::string& source, const ImportOptions& options) {
   if (files.empty()) {
     const char32_t wanted = options.only.empty() ? U'永' : options.only.front();

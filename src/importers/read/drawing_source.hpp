@@ -1,4 +1,4 @@
-// A collection of drawings: its files, what kind of source it is, and whose work; private to the importers.
+// A collection of drawings: its files, its kind and its provenance; private to the importers.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +25,7 @@ struct DrawingSource {
 ///         ValueError as check_applies()
 DrawingSource read_drawings(const std::filesystem::path& path, const ImportOptions& options);
 
-/// Provenance of what was made of the drawings, and in `notes` what it lacks. `notice`: of one of the files.
+/// Provenance of the characters made from the drawings; `notes` receives what it lacks. `notice`: of one of the files.
 Provenance provenance(const DrawingSource& source, const ImportOptions& options, const std::string& notice,
                       std::vector<std::string>& notes);
 

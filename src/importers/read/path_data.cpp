@@ -19,7 +19,7 @@ constexpr double max_path_coordinate = 1e4;  // [unit]; a drawing has 109
 constexpr std::size_t max_path_points = 20000;
 constexpr int max_pieces = 1000;  // of one curve
 
-/// What a path may consist of after its M.
+/// The commands that may follow the M of a path.
 struct Commands {
   std::string_view letters;
   const char* expected;  ///< for messages

@@ -22,14 +22,14 @@ struct SourceFiles {
   std::vector<SkippedFile> skipped;  ///< files that were not read, including links and devices
 };
 
-/// A text as it is redistributed: UTF-8 with '\n' line ends. @throws FormatError naming the place
+/// A text as it is redistributed: UTF-8 with '\n' line endings. @throws FormatError naming the place
 std::string with_plain_line_ends(std::string_view text, const std::string& place);
 
-/// Returns why a file is skipped, given its path within the source; empty: it is read.
+/// Returns why a file is skipped, given its path within the source; empty if it is to be read.
 using SkipReason = std::function<std::string(std::string_view path)>;
 
 /// Reads the files of a directory (links are not followed) or of a tarball (.tgz or .tar; nothing is unpacked to disk).
-/// @throws FileError if the source cannot be opened or read, or this build does not support tarballs; FormatError naming
+/// @throws FileError if the source cannot be opened or read, or this build cannot read tarballs; FormatError naming
 ///         source and entry if it is damaged, exceeds the limits, or contains a path that leaves the tarball
 SourceFiles read_source(const std::filesystem::path& source, const SkipReason& skip_reason,
                         const SourceLimits& limits = {});

@@ -19,7 +19,7 @@ namespace calligraphy {
 namespace {
 
 constexpr std::size_t max_path = 512;   // [byte]; of an entry
-constexpr std::size_t end_mark = 1024;  // [byte]; zeros at the end of a tar, more than occur within one of texts
+constexpr std::size_t end_mark = 1024;  // [byte]; zeros that end a tar; a tar of texts has no such run before
 constexpr std::size_t ratio_judged_from = 16u << 20;  // [byte]; below this, any ratio is acceptable
 
 /// The tar as a stream of bytes, within the limits, decompressed if it is gzip data. Uses inflate(), because gzread()
