@@ -1,4 +1,4 @@
-// Recognises archives, which are read in place of character files by mistake.
+// Recognises archives, which users pass by mistake instead of a character file.
 #pragma once
 
 #include <cstddef>
@@ -6,10 +6,10 @@
 
 namespace calligraphy {
 
-/// As many bytes of a file are needed to recognise it.
+/// Bytes at the start of a file that suffice to recognise an archive.
 inline constexpr std::size_t archive_start = 262;
 
-/// "gzip", "zip" or "tar", by the first bytes of a file; empty: it is none of these.
+/// "gzip", "zip" or "tar", from the first bytes of a file; empty if it is none of these.
 inline std::string_view archive_format(std::string_view start) noexcept {
   constexpr std::string_view tar = "ustar";
   if (start.starts_with("\x1F\x8B")) return "gzip";

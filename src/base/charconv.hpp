@@ -1,5 +1,5 @@
-// std::from_chars and std::to_chars of every number, also with a standard library that has them for integers alone:
-// libc++ 14 lacks the first, Emscripten 3.1.6 both.
+// std::from_chars and std::to_chars for floating-point numbers too, even where the standard library supports only
+// integers: libc++ 14 lacks the former, Emscripten 3.1.6 both.
 #pragma once
 
 #include <charconv>
@@ -19,10 +19,10 @@ template <std::integral Integer>
 std::to_chars_result to_chars(char* begin, char* end, Integer value, int base = 10) noexcept {
   return std::to_chars(begin, end, value, base);
 }
-/// The shortest text that reads back the same.
+/// Writes the shortest text that reads back as the same number.
 std::to_chars_result to_chars(char* begin, char* end, float value) noexcept;
 std::to_chars_result to_chars(char* begin, char* end, double value) noexcept;
-/// With so many decimal places.
+/// Writes the number with this many decimal places.
 std::to_chars_result to_chars_fixed(char* begin, char* end, double value, int places) noexcept;
 
 }  // namespace calligraphy

@@ -1,4 +1,4 @@
-// Numbers and their text by strtod and snprintf, with the rules and results of <charconv>.
+// Converts between numbers and text with strtod and snprintf, by the rules of <charconv>.
 #pragma once
 
 #include <locale.h>
@@ -19,7 +19,7 @@
 
 namespace calligraphy::by_libc {
 
-/// The decimal point is a point in this thread.
+/// While it lives, this thread's decimal separator is a point.
 class PlainLocale {
  public:
   PlainLocale() {
@@ -34,7 +34,8 @@ class PlainLocale {
   locale_t before_;
 };
 
-/// What a number may be made of; strtod also takes white space and a plus in front, and hexadecimal digits.
+/// The leading characters that a decimal number may contain. strtod would also accept leading white space, a plus sign
+/// and hexadecimal digits.
 inline std::string_view decimal(std::string_view text) {
   const std::size_t sign = !text.empty() && text[0] == '-' ? 1 : 0;
   constexpr std::string_view first = "0123456789.iInN";
@@ -42,7 +43,7 @@ inline std::string_view decimal(std::string_view text) {
   return text.substr(0, text.find_first_not_of("0123456789.+-eEinftyaINFTYA"));
 }
 
-/// Zero, and what is written as infinite, are in range; what becomes zero or infinite is not.
+/// Zero and explicit infinity are in range; a number that rounds to zero or overflows to infinity is not.
 template <typename Number>
 bool in_range(std::string_view text, Number value) {
   const std::string_view digits = text.substr(0, text.find_first_of("eE"));
@@ -96,7 +97,7 @@ std::to_chars_result to_chars(char* begin, char* end, Number value) {
   const std::size_t e = scientific.find('e');
   const int exponent = std::atoi(scientific.c_str() + e + 1);
   const std::size_t sign = scientific[0] == '-' ? 1 : 0;
-  const int digits = static_cast<int>(e - sign) - (e - sign > 1 ? 1 : 0);  // the point is none
+  const int digits = static_cast<int>(e - sign) - (e - sign > 1 ? 1 : 0);  // the point is not a digit
   const std::string fixed = printed("%.*f", std::max(digits - 1 - exponent, 0), static_cast<double>(value));
   return copied(fixed.size() <= scientific.size() ? fixed : scientific, begin, end);
 }

@@ -94,7 +94,8 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
-/// A pipe or a character device. Also behind a link to no path, as /dev/fd/63 of a shell's >(command) is.
+/// Whether the path is a pipe or a character device, even through a link whose target is no path, such as /dev/fd/63 in
+/// a shell's >(command).
 bool is_stream(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -111,7 +112,7 @@ void write_to_stream(const fs::path& path, std::string_view content) {
   write_and_close(std::move(file), path, content);
 }
 
-/// Refuses what is no regular file, and what is too large.
+/// Rejects anything but a regular file, and a file that is too large.
 void check_can_read(const fs::path& path, std::uintmax_t max_bytes) {
   std::error_code failure;
   if (fs::exists(path, failure) && !fs::is_regular_file(path, failure)) {
@@ -156,7 +157,7 @@ std::ifstream open_file(const fs::path& path, std::uintmax_t max_bytes) {
   return in;
 }
 
-// Without streams, whose locales are a fifth of a WebAssembly module.
+// Avoids streams: their locales make up a fifth of a WebAssembly module.
 std::string read_file(const fs::path& path, std::size_t max_bytes) {
   check_can_read(path, max_bytes);
   errno = 0;
@@ -170,7 +171,7 @@ std::string read_file(const fs::path& path, std::size_t max_bytes) {
     text.resize(before + std::fread(text.data() + before, 1, chunk, in.get()));
     if (std::ferror(in.get())) throw FileError(path.string(), "cannot be read", errno);
   }
-  if (text.size() > max_bytes) fail_as_too_large(path, max_bytes);  // it has grown meanwhile
+  if (text.size() > max_bytes) fail_as_too_large(path, max_bytes);  // it has grown in the meantime
   return text;
 }
 

@@ -18,7 +18,7 @@ std::string in_quotes(std::string_view text) {
   constexpr std::size_t most = 60;
   if (text.size() <= most) return "'" + printable(text) + "'";
   std::size_t end = most;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a character
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not inside a character
   return "'" + printable(text.substr(0, end)) + "...'";
 }
 
@@ -42,7 +42,7 @@ bool LineReader::next() {
   ++number_;
   line_.clear();
   bool found = false;
-  for (bool has_end = false; !has_end;) {  // a line is no longer in memory than the text may be
+  for (bool has_end = false; !has_end;) {  // bounds the line in memory by the limit on the text
     if (unread_.empty()) {
       unread_ = {chunk_.data(), read_bytes_(chunk_.data(), chunk_.size())};
       at_end_ = unread_.empty();

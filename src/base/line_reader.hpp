@@ -1,4 +1,4 @@
-// Text read line by line: every error names its source and line.
+// Reads text line by line; every error names its source and line.
 #pragma once
 
 #include <algorithm>
@@ -13,39 +13,39 @@
 
 namespace calligraphy {
 
-/// How a line goes on after its first word.
+/// How the rest of a line is read, after its first word.
 enum class LineKind {
   words,     ///< words; '#' begins a comment
-  text,      ///< text to the end of the line, '#' and all, but without trailing blanks
-  verbatim,  ///< text, trailing blanks and all
+  text,      ///< text to the end of the line, including '#', without trailing blanks
+  verbatim,  ///< text to the end of the line, including trailing blanks
 };
 
-/// The text as a message shows it, printable and shortened: a file that is no text may be a single line of any length.
+/// The text as shown in messages, printable and shortened: a binary file may be a single line of any length.
 std::string in_quotes(std::string_view text);
 
-/// Reads the next bytes of a text, at most so many, to an address, and returns how many; 0: there are no more.
+/// Reads at most `most` bytes of a text to an address and returns their number; 0 at the end.
 using ReadBytes = std::function<std::size_t(char* to, std::size_t most)>;
-/// The bytes of a text in memory, and of a stream; both must outlive the result. `name` begins the message.
-/// @throws FileError from a call, if the stream fails
+/// Reads a text in memory, or a stream; both must outlive the result. `name` begins the message.
+/// @throws FileError from the returned function if the stream fails
 ReadBytes bytes_of(std::string_view text);
 ReadBytes bytes_of(std::istream& in, std::string_view name);
 
 /// Base of the parsers of text formats: reads lines that end with "\n" or "\r\n"; a byte order mark is skipped.
 class LineReader {
  public:
-  /// `name` begins every message. No more than `max_bytes` are read, and of a line no more than `max_line_bytes`.
+  /// `name` begins every message. Reads at most `max_bytes`, and at most `max_line_bytes` per line.
   LineReader(ReadBytes read, std::string_view name, std::size_t max_bytes = std::numeric_limits<std::size_t>::max(),
              std::size_t max_line_bytes = std::numeric_limits<std::size_t>::max())
       : read_bytes_(std::move(read)), name_(name), max_bytes_(max_bytes), max_line_bytes_(max_line_bytes) {}
 
-  /// The next line. False: there are no more, and line() is empty.
-  /// @throws FileError as ReadBytes; FormatError when the text or the line is longer than it may be
+  /// Reads the next line. Returns false at the end; line() is then empty.
+  /// @throws FileError as ReadBytes; FormatError when the text or the line is too long
   bool next();
 
-  /// The next line, which must have its end: without it, its last number may have been cut in two.
+  /// Reads the next line, which must end with a line break: otherwise its last number may have been cut in two.
   bool next_whole();
 
-  /// The next line that is more than blanks and a comment. `kind_of(first_word)` is its LineKind.
+  /// Reads the next line that has more than blanks and a comment. `kind_of(first_word)` is its LineKind.
   template <typename KindOf>
   bool next_statement(const KindOf& kind_of) {
     while (next()) {
@@ -65,14 +65,14 @@ class LineReader {
   /// The next word of the line, up to a blank or a tab; empty at the end of the line.
   std::string_view word() noexcept;
 
-  /// All words that follow, as they stand.
+  /// All following words, unchanged.
   std::string_view rest() noexcept;
 
-  /// What follows the last word, still to be read.
+  /// The unread text after the last word.
   std::string_view left() const noexcept { return left_; }
   void set_left(std::string_view left) noexcept { left_ = left; }
 
-  /// A word as a message shows it: "the end of the line", where it is empty for want of more.
+  /// A word as shown in messages; "the end of the line" if there was no word left.
   std::string in_quotes(std::string_view word) const;
 
   /// @throws FormatError "NAME:LINE: what"

@@ -1,4 +1,4 @@
-// The clock that never runs back, and goes on while the machine is suspended.
+// A clock that never runs backwards and keeps running while the machine is suspended.
 #pragma once
 
 #include <chrono>
@@ -9,21 +9,21 @@
 
 namespace calligraphy {
 
-/// Seconds since some moment before the program began. A suspension of the machine counts: to a servo loop it is a gap
+/// Seconds since some moment before the program began. Time during a suspension counts: to a servo loop it is a gap
 /// like any other. Neither blocks nor allocates.
 inline double monotonic_seconds() noexcept {
 #if defined(__linux__)
   std::timespec time = {};
   clock_gettime(CLOCK_BOOTTIME,
-                &time);  // CLOCK_MONOTONIC, and with it std::chrono::steady_clock, stands still meanwhile
+                &time);  // CLOCK_MONOTONIC, and so std::chrono::steady_clock, stops meanwhile
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 #else
-  // Windows and macOS count it here.
+  // On Windows and macOS this clock counts it too.
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 #endif
 }
 
-/// Seconds that `work` takes. What it returns is kept, or nothing would have to be computed.
+/// Duration of `work` [s]. Its result is stored, so that the compiler cannot omit the computation.
 template <typename Work>
 double seconds_of(const Work& work) {
   const double start = monotonic_seconds();

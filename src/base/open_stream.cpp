@@ -20,7 +20,7 @@ std::FILE* open_stream(const std::string& path) noexcept {
     errno = ENXIO;
   }
   if (descriptor < 0) return nullptr;
-  fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);  // a full pipe is waited for
+  fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);  // waits while the pipe is full
   std::FILE* const file = fdopen(descriptor, "wb");
   if (file == nullptr) close(descriptor);
   return file;

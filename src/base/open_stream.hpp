@@ -1,4 +1,4 @@
-// Opens a pipe or a character device without waiting for ever.
+// Opens a pipe or a character device without waiting forever.
 #pragma once
 
 #include <cstdio>
@@ -6,8 +6,8 @@
 
 namespace calligraphy {
 
-/// For writing; null, with the reason in `errno`, if it cannot be opened: ENXIO for a pipe that no program reads, after
-/// a second in which its reader may start.
+/// Opens for writing. Returns null, with the reason in `errno`, on failure: ENXIO for a pipe that no program reads,
+/// after waiting a second for a reader to start.
 std::FILE* open_stream(const std::string& path) noexcept;
 
 }  // namespace calligraphy

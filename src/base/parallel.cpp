@@ -11,7 +11,7 @@
 namespace calligraphy {
 namespace {
 
-/// Indices are handed out in ascending order, and every one handed out is processed, so the lowest that fails is always
+/// Hands out indices in ascending order. Every index handed out is processed, so the lowest failing one is always
 /// reached.
 class Queue {
  public:
@@ -60,7 +60,7 @@ class Threads {
  public:
   ~Threads() { join(); }
 
-  /// False where the system has no more threads, or none at all: WebAssembly.
+  /// Returns false if the system has no more threads, or none at all (WebAssembly).
   template <typename Work>
   bool start(const Work& work) {
     try {
@@ -93,7 +93,7 @@ void parallel_for(std::size_t count, int threads, const std::function<void(doubl
   queue.run(progress);
   others.join();
   queue.rethrow();
-  if (progress && count > 0) progress(1.0);  // by whichever thread the last index was
+  if (progress && count > 0) progress(1.0);  // whichever thread processed the last index
 }
 
 }  // namespace calligraphy

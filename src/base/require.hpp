@@ -1,4 +1,4 @@
-// Checks of arguments and options: every number out of its domain is reported in the same words.
+// Checks arguments and options, and reports every number outside its domain in the same words.
 #pragma once
 
 #include <concepts>
@@ -10,11 +10,11 @@ namespace calligraphy {
 
 inline constexpr double unlimited = std::numeric_limits<double>::max();
 
-/// For messages: the fewest digits that read back as the same number.
+/// The number in the fewest digits that read back as the same number, for messages.
 std::string number_text(double value);
 
-/// A message put together by <<, with numbers to six digits: as an ostringstream, without the locales that come with
-/// one, which are a fifth of a WebAssembly module.
+/// A message composed with <<, numbers to six digits. Replaces ostringstream, whose locales make up a fifth of a
+/// WebAssembly module.
 class Message {
  public:
   Message& operator<<(std::string_view text) {
@@ -32,14 +32,14 @@ class Message {
   std::string text_;
 };
 
-/// @throws ValueError "NAME = VALUE UNIT, must be DOMAIN" unless `in_domain`; the value has as many digits as it takes
-/// to read it back. No unit: an empty one.
+/// @throws ValueError "NAME = VALUE UNIT, must be DOMAIN" unless `in_domain`; the value is printed with enough digits
+/// to read it back. An empty unit is omitted.
 void require(bool in_domain, std::string_view name, double value, std::string_view unit, std::string_view domain);
 
-/// The domains of most numbers, all of them finite. @throws ValueError as above
+/// Checks for the most common domains, all of finite numbers. @throws ValueError as above
 void require_above_zero(std::string_view name, double value, std::string_view unit, double most = unlimited);
 void require_not_negative(std::string_view name, double value, std::string_view unit);
-/// With a `reason`, that follows the domain.
+/// The `reason`, if any, follows the domain.
 void require_within(std::string_view name, double value, std::string_view unit, double least, double most,
                     std::string_view reason = {});
 

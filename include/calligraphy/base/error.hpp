@@ -1,4 +1,4 @@
-// Exceptions thrown during set-up. Every message names the place and the value; the servo loop never throws.
+// Exceptions thrown during set-up. Messages name the place and the value. The servo loop never throws.
 #pragma once
 
 #include <stdexcept>
@@ -29,8 +29,8 @@ class FileError : public Error {
   FileError(std::string path, const std::string& what, int code = 0)
       : Error(path + ": " + what), path_(std::move(path)), code_(code) {}
 
-  const std::string& path() const noexcept { return path_; }  ///< empty if it is not known
-  int code() const noexcept { return code_; }                 ///< errno, such as ENOENT; 0 if it is not known
+  const std::string& path() const noexcept { return path_; }  ///< empty if unknown
+  int code() const noexcept { return code_; }                 ///< errno, such as ENOENT; 0 if unknown
 
  private:
   std::string path_;

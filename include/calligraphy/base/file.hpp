@@ -12,12 +12,12 @@
 namespace calligraphy {
 
 /// Writes atomically: to a temporary file beside `path`, which is then renamed. A pipe or a character device, such as
-/// /dev/null, is written to directly; a pipe's reader must be there within a second. @throws FileError naming the path
-/// and the reason; an existing file is then left unchanged
+/// /dev/null, is written to directly; a pipe must get a reader within a second. @throws FileError naming the path and
+/// the reason; an existing file is then left unchanged
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-/// Checks before long work that write_file() can succeed: creates and removes a temporary file beside `path`. A pipe or
-/// a character device is not tried, because a pipe's reader would take that for the end.
+/// Checks before long work that write_file() can succeed: creates and removes a temporary file beside `path`. Pipes and
+/// character devices are not tried: the reader of a pipe would take the attempt for the end of the data.
 /// @throws FileError as write_file()
 void check_can_write(const std::filesystem::path& path);
 

@@ -15,9 +15,10 @@ namespace calligraphy {
 /// n-th draw is a hash of seed + n * 0x9E3779B97F4A7C15. Not for cryptography.
 class Random {
  public:
-  /// The sequence of this seed; every seed is as good as any other.
+  /// Starts the sequence of a seed; no seed is better than another.
   explicit Random(std::uint64_t seed) : state_(seed) {}
-  /// An independent sequence for each list of keys: draws for one key do not depend on how many were taken for another.
+  /// Starts an independent sequence for each list of keys, so that draws for one do not depend on how many were taken
+  /// for another.
   Random(std::uint64_t seed, std::initializer_list<int> keys);
 
   /// 64 random bits.

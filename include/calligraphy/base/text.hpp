@@ -6,16 +6,16 @@
 
 namespace calligraphy {
 
-/// Whether the text is valid UTF-8 throughout; an empty text is.
+/// Whether the whole text is valid UTF-8, as an empty one is.
 bool is_utf8(std::string_view text) noexcept;
 
-/// Code points of a UTF-8 text. @throws FormatError naming the byte offset of the first invalid sequence
+/// The code points of a UTF-8 text. @throws FormatError naming the byte offset of the first invalid sequence
 std::u32string decode_utf8(std::string_view text);
 
-/// UTF-8 of one code point. @throws ValueError if it is a surrogate or above U+10FFFF
+/// One code point as UTF-8. @throws ValueError if it is a surrogate or above U+10FFFF
 std::string encode_utf8(char32_t code);
 
-/// The text with '?' for every control character and every byte that is not UTF-8, for a terminal.
+/// The text as a terminal can show it: '?' replaces every control character and every byte that is not UTF-8.
 std::string printable(std::string_view text);
 
 }  // namespace calligraphy

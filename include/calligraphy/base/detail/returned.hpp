@@ -1,4 +1,4 @@
-// What a user's function returns, for a template that takes exactly one type and says so.
+// The return type of a user's function, for templates that accept exactly one type and say so.
 #pragma once
 
 #include <concepts>
@@ -16,7 +16,7 @@ struct ReturnedBy<Function, Arguments...> {
   using type = std::remove_cvref_t<std::invoke_result_t<Function, Arguments...>>;
 };
 
-/// The type that a call returns, without reference and const; void if the call is not possible.
+/// The return type of a call, without reference and const; void if the call is not possible.
 template <class Function, class... Arguments>
 using Returned = typename ReturnedBy<Function, Arguments...>::type;
 
