@@ -86,13 +86,13 @@ void validate_stroke(const Stroke& stroke, int number, std::vector<ValidationIss
   }
 }
 
-/// "typical stroke 31 (LLLL)" or, where the composition goes without saying, "typical stroke 31".
+/// "typical stroke 31 (LLLL)", or "typical stroke 31" if the composition goes without saying.
 std::string type_label(const TypicalStroke& type, ElementList elements) {
   const std::string label = "typical stroke " + std::to_string(type.id);
   return elements == type.elements ? label : label + " (" + std::string(elements.elements()) + ")";
 }
 
-/// Empty if a stroke of this type may have these elements: as many as the typical stroke.
+/// Empty if a stroke of this type may have these elements, that is, as many as the typical stroke has.
 std::string composition_error(const TypicalStroke& type, ElementList elements) {
   if (elements.size() == type.elements.size()) return {};
   return "typical stroke " + std::to_string(type.id) + " is " + std::string(type.elements) +

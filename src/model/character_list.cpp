@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 3> first_lines = {"calligraphy characters
                                                          "calligraphy characters 3"};
 constexpr int format_with_ink = 3;
 constexpr std::size_t ink_values = 2 + 2 * ink_knot_count;
-constexpr std::size_t max_file_bytes = 64 << 20;  // twice all of Make Me a Hanzi [bytes]
+constexpr std::size_t max_file_bytes = 64 << 20;  // twice the size of all Make Me a Hanzi [bytes]
 constexpr std::string_view licence_text_key = "licence-text";
 
 LineKind kind_of(std::string_view key) {

@@ -12,12 +12,12 @@
 namespace calligraphy {
 namespace {
 
-/// A file that begins like this is a set file, possibly damaged: no text begins like this.
+/// Whether this is a set file, possibly damaged: no text begins like one.
 bool begins_like_a_set_file(std::span<const std::byte> bytes) {
   return !bytes.empty() && bytes[0] == static_cast<std::byte>(set_format::magic[0]);
 }
 
-/// @throws FormatError if the file is an archive, whose bytes tell a reader nothing
+/// @throws FormatError if the file is an archive, which a parser's message would not explain
 void check_is_no_archive(std::span<const std::byte> bytes, const std::string& path) {
   const std::string_view format = archive_format({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   if (format.empty()) return;

@@ -9,7 +9,7 @@ namespace {
 
 using namespace set_format;
 
-constexpr std::size_t least_strokes_of_row = 24;  // fewer do not save what the row takes
+constexpr std::size_t min_strokes_per_row = 24;  // fewer save less than the row costs
 
 std::array<double, values_per_ink> values_of(const StrokeInk& ink) {
   std::array<double, values_per_ink> values{ink.start, ink.end};
@@ -26,7 +26,7 @@ InkSteps steps_of(const StrokeInk& ink, std::uint32_t steps_per_em) {
   return steps;
 }
 
-/// Of each value; zeros of none.
+/// The median of each value; zeros if there are no inks.
 InkSteps medians_of(const std::vector<InkSteps>& inks) {
   InkSteps medians{};
   std::vector<std::int32_t> sorted(inks.size());
@@ -39,7 +39,7 @@ InkSteps medians_of(const std::vector<InkSteps>& inks) {
   return medians;
 }
 
-/// What each value differs from what is expected, as numbers from 0: 0, -1, 1, -2, ...
+/// The difference of each value from the expected one, as a number: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
 std::array<std::uint32_t, values_per_ink> numbers_of(const InkSteps& steps, const InkSteps& usual) {
   std::array<std::uint32_t, values_per_ink> numbers{};
   std::int32_t off = 0;
@@ -83,8 +83,8 @@ InkCode ink_code_of(const std::vector<RankedInk>& inks, std::size_t kinds, std::
 
   std::vector<std::vector<InkSteps>> of_kinds(kinds);
   for (const RankedInk& each : inks) of_kinds[each.kind].push_back(steps_of(*each.ink, steps_per_em));
-  // Kinds are in order of frequency: the first rare one ends the list of those with a row of their own.
-  const auto is_rare = [](const std::vector<InkSteps>& strokes) { return strokes.size() < least_strokes_of_row; };
+  // Kinds are in order of frequency: the first rare one ends the list of kinds with a row of their own.
+  const auto is_rare = [](const std::vector<InkSteps>& strokes) { return strokes.size() < min_strokes_per_row; };
   const auto rare = std::find_if(of_kinds.begin(), of_kinds.end(), is_rare);
   std::vector<InkSteps> others;
   for (auto kind = rare; kind != of_kinds.end(); ++kind) others.insert(others.end(), kind->begin(), kind->end());

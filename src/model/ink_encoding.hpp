@@ -18,7 +18,7 @@ struct RankedInk {
   std::size_t kind;
 };
 
-/// What is usual for each kind, and the parameters that make the code shortest. Without values if there is no ink.
+/// The usual ink of each kind, and the parameters that make the code shortest. Has no values if there is no ink.
 set_format::InkCode ink_code_of(const std::vector<RankedInk>& inks, std::size_t kinds, std::uint32_t steps_per_em);
 
 void append_ink_code(std::vector<std::byte>& bytes, const set_format::InkCode& code);

@@ -22,7 +22,7 @@ Point direction(const Point& from, const Point& to) {
 
 Point left_of(const Point& direction) { return {-direction.y(), direction.x()}; }
 
-/// A polyline by arc length. The places asked for must not decrease by much from one call to the next.
+/// A polyline parameterised by arc length. Efficient if the arc does not decrease by much from one call to the next.
 class ArcLength {
  public:
   explicit ArcLength(std::vector<Point> points) : points_(std::move(points)), arcs_(points_.size(), 0.0) {
@@ -42,10 +42,10 @@ class ArcLength {
  private:
   std::vector<Point> points_;
   std::vector<double> arcs_;
-  std::size_t next_ = 1;  ///< end of the piece of the last place
+  std::size_t next_ = 1;  ///< end of the last piece used
 };
 
-/// The path without repeated points, drawn out straight at both ends.
+/// The path without repeated points, extended straight at both ends.
 std::vector<Point> drawn_out(std::span<const Point> path, const StrokeInk& ink) {
   std::vector<Point> points{path.front()};
   for (const Point& point : path) {
@@ -59,17 +59,17 @@ std::vector<Point> drawn_out(std::span<const Point> path, const StrokeInk& ink) 
   return points;
 }
 
-/// A value of the profile at a share of the length.
+/// A place between two knots of the profile.
 struct ProfilePlace {
   std::size_t knot;
-  double share;  ///< of the way from the knot to the next
+  double share;  ///< fraction of the way from the knot to the next
 
   double of(const std::array<double, ink_knot_count>& values) const {
     return values[knot] + share * (values[knot + 1] - values[knot]);
   }
 };
 
-/// Collects the outline of discs: those points of it that no disc covers.
+/// Collects the outline of discs: the points that no disc covers.
 class Envelope {
  public:
   Envelope(const std::vector<InkDisc>& discs, double tolerance) : discs_(discs), tolerance_(tolerance) {
@@ -79,7 +79,7 @@ class Envelope {
     }
   }
 
-  /// Along the right side of the discs, round the last, back along the left side and round the first.
+  /// Runs along the right side of the discs, round the last, back along the left side and round the first.
   std::vector<Point> outline() {
     const std::size_t count = discs_.size();
     if (count == 1) {
@@ -92,7 +92,7 @@ class Envelope {
   }
 
  private:
-  /// How much the radius grows per distance from one disc to another, at most 1: then one contains the other.
+  /// Growth of the radius per distance from one disc to another, limited to 1, where one contains the other.
   double slope(std::size_t from, std::size_t to) const {
     const double distance = (discs_[to].centre - discs_[from].centre).norm();
     const double growth = discs_[to].radius - discs_[from].radius;
@@ -105,9 +105,9 @@ class Envelope {
     return std::atan2(along.y(), along.x());
   }
 
-  /// Adds what the right side of a disc has of the outline, between its tangents with the discs before and ahead: an arc
-  /// where the outline turns left, else one point, as the tangents cross. At the first disc and the last, where the
-  /// outline turns back, the disc before is the one ahead.
+  /// Adds the part of the outline on the right side of a disc, between its tangents with the discs before and ahead: an
+  /// arc where the outline turns left, otherwise one point, since the tangents cross. At the first and the last disc,
+  /// where the outline turns back, both neighbours are the same disc.
   void add_junction(std::size_t before, std::size_t at, std::size_t ahead) {
     constexpr double right = -0.5 * std::numbers::pi;
     const double tilt = std::asin(slope(at, ahead));
@@ -139,14 +139,14 @@ class Envelope {
     for (std::size_t i = 0; i < discs_.size();) {
       const double distance = (point - discs_[i].centre).norm() - discs_[i].radius;
       if (distance < -within) return true;
-      // Discs nearer along the line than that cannot cover the point.
+      // Discs closer along the line than this cannot cover the point.
       const double clear = largest_step_ > 0.0 ? (distance + within) / largest_step_ : 0.0;
       i += std::max<std::size_t>(1, static_cast<std::size_t>(clear));
     }
     return false;
   }
 
-  /// The points without those that are within the tolerance of the line between their neighbours.
+  /// Drops points within the tolerance of the line between their neighbours.
   std::vector<Point> thinned() const {
     std::vector<Point> kept;
     for (std::size_t from = 0; from < points_.size();) {
@@ -171,7 +171,7 @@ class Envelope {
 
   const std::vector<InkDisc>& discs_;
   double tolerance_;
-  double largest_step_ = 0.0;  ///< by which the distance of a point from the edge of the next disc may be less [em]
+  double largest_step_ = 0.0;  ///< most by which a point can be closer to the edge of the next disc [em]
   std::vector<Point> points_;
 };
 

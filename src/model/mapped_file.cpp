@@ -19,7 +19,7 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) { throw FileError(path, what); }
 
-/// With the reason of the system.
+/// Adds the system's reason.
 [[noreturn]] void fail(const std::string& path, const std::string& what, int code) {
   throw FileError(path, what + ": " + std::generic_category().message(code), code);
 }
@@ -62,7 +62,7 @@ MappedFile::~MappedFile() {
 
 namespace calligraphy {
 
-// Without memory mapping the whole file is read.
+// Reads the whole file, for systems without memory mapping.
 MappedFile::MappedFile(const std::string& path) {
   std::error_code error;
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {

@@ -14,7 +14,7 @@ class RandomPoints : public Random {
     const double x = between(low, high);
     return {x, between(low, high)};
   }
-  /// Within the unit disc.
+  /// A point within the unit disc.
   Point in_disc() {
     for (;;) {
       const Point candidate = point(-1.0, 1.0);

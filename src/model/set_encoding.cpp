@@ -64,7 +64,7 @@ void append_text(Bytes& bytes, std::string_view text) {
   for (const char c : text) bytes.push_back(static_cast<std::byte>(c));
 }
 
-/// Seven bits per byte, the lowest first.
+/// Seven bits per byte, lowest first.
 void append_number(Bytes& bytes, std::size_t number) {
   for (; number >= 0x80; number >>= 7) bytes.push_back(static_cast<std::byte>((number & 0x7F) | 0x80));
   bytes.push_back(static_cast<std::byte>(number));
@@ -168,7 +168,7 @@ std::vector<Kind> kinds_of(const Character& character) {
   return kinds;
 }
 
-/// The bits of a form: kinds, points, factors, ink.
+/// Writes the bits of a form: kinds, points, factors, ink.
 class FormEncoder {
  public:
   FormEncoder(const CharacterList& set, const std::vector<Kind>& kinds, CoordinatePrecision precision) {

@@ -34,7 +34,8 @@ bool is_sound(const CoordinateEncoding& coding) noexcept {
   return coding.steps_per_em <= max_steps_per_em && is_width(coding.x_bits) && is_width(coding.y_bits);
 }
 
-/// A number of up to 32 bits, seven per byte, the lowest first. False if it ends beyond `end` or is too large.
+/// Reads a number of up to 32 bits, seven per byte, lowest first. Returns false if it ends beyond `end` or is too
+/// large.
 bool read_number(std::span<const std::byte> bytes, std::size_t& at, std::size_t end, std::uint32_t& number) noexcept {
   std::uint64_t value = 0;
   for (int shift = 0; shift < 35 && at < end; shift += 7) {
@@ -149,7 +150,7 @@ std::size_t SetFile::read_ink_code(std::size_t at) {
   return at;
 }
 
-/// `curves`: of version 1, not stored.
+/// `curves` is empty for version 1, which does not store it.
 void SetFile::add_kind(std::uint8_t id, std::optional<std::uint8_t> curves) {
   if (id < 1 || id > typical_stroke_count) {
     fail("its list of stroke kinds contains the invalid id " + std::to_string(id));

@@ -19,7 +19,7 @@
 namespace calligraphy {
 
 /// Opening validates the header and the index, and their checksum; the checksum of a group is verified on its first
-/// use. A matching checksum does not make a number trusted: each is validated before it is used.
+/// use. A matching checksum does not make numbers trustworthy: each is validated before use.
 class SetFile {
  public:
   /// @throws FormatError naming the file
@@ -33,7 +33,7 @@ class SetFile {
                     StoredCharacter& form) noexcept;
   /// Stores the first form of a character in `form`, if there is one.
   static void find_first(const std::shared_ptr<const SetFile>& file, char32_t code, StoredCharacter& form) noexcept;
-  /// All forms that are undamaged.
+  /// All undamaged forms.
   static std::vector<StoredCharacter> find_all(const std::shared_ptr<const SetFile>& file, char32_t code);
   std::optional<char32_t> next(char32_t from) const noexcept;
 
@@ -61,9 +61,8 @@ class SetFile {
 
   void read();
   void read_header();
-  /// Returns the offset of what follows.
+  /// Reads the kinds; returns, like read_ink_code(), the offset of the next part.
   std::size_t read_kinds();
-  /// Returns the offset of what follows.
   std::size_t read_ink_code(std::size_t at);
   void add_kind(std::uint8_t id, std::optional<std::uint8_t> curves);
   void read_provenance(std::size_t at);
@@ -81,7 +80,7 @@ class SetFile {
   bool has_group(std::uint32_t block) const noexcept;
   bool is_intact(std::size_t group) const noexcept;
   std::optional<Record> record(char32_t code) const noexcept;
-  /// Reads the head of a form. False if it is damaged; it then has no strokes.
+  /// Reads the head of a form. Returns false if it is damaged; the form then has no strokes.
   bool read_form(Record& rest, StoredCharacter& form) const noexcept;
 
   enum class GroupState : std::uint8_t { unknown, intact, damaged };
@@ -101,7 +100,7 @@ class SetFile {
   const std::byte* blocks_ = nullptr;
   const std::byte* entries_ = nullptr;
   std::array<BlockCell, (set_format::last_block >> 6) + 1> cells_{};
-  /// Every thread that computes it finds the same value, so no memory ordering between threads is needed.
+  /// Every thread computes the same value, so no memory ordering is needed.
   mutable std::unique_ptr<std::atomic<GroupState>[]> states_;
 };
 

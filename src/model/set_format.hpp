@@ -14,13 +14,13 @@
 
 namespace calligraphy::set_format {
 
-/// No text begins like this, and a transfer that converts line ends corrupts it detectably.
+/// No text begins like this, and a transfer that converts line ends damages it detectably.
 inline constexpr std::string_view magic =
     "\x89"
     "CGS\r\n\x1A\n";
 inline constexpr std::uint32_t version = 3;
-inline constexpr std::uint32_t version_without_ink = 2;  ///< of files that any reader of version 2 reads
-inline constexpr std::uint32_t oldest_version = 1;       ///< that can be read
+inline constexpr std::uint32_t version_without_ink = 2;  ///< readable by any reader of version 2
+inline constexpr std::uint32_t oldest_version = 1;       ///< that is still readable
 
 // The header: offset of each field [byte].
 inline constexpr std::size_t version_at = 8;
@@ -32,8 +32,8 @@ inline constexpr std::size_t error_at = 28;
 inline constexpr std::size_t coding_at = 36;
 inline constexpr std::size_t coding_size = 14;
 inline constexpr std::size_t kinds_at = 50;  ///< the kinds of strokes, most frequent first
-inline constexpr std::size_t kind_size = 2;  ///< u8 id, u8 which elements are curves, the first one lowest
-inline constexpr std::size_t ink_head_size = 5;  ///< after the kinds in version 3: u32 steps, u8 values per stroke
+inline constexpr std::size_t kind_size = 2;  ///< u8 id, u8 which elements are curves, first element in the lowest bit
+inline constexpr std::size_t ink_head_size = 5;  ///< follows the kinds in version 3: u32 steps, u8 values per stroke
 
 /// A group holds the characters of 64 neighbouring code points.
 inline constexpr int group_shift = 6;
@@ -61,7 +61,7 @@ inline constexpr std::size_t max_forms = 255;             ///< of a character
 inline constexpr std::size_t max_order_name_bytes = 255;  // [byte]
 
 // A stroke is stored as the rank of its kind, in a Rice code of parameter 1: rank / 2 ones, a zero, and the lowest bit.
-// A rank beyond those of version 1 follows as many ones as they do not need.
+// A rank too high for version 1 follows an escape: more ones than its ranks need.
 inline constexpr int escape_ones = 20;
 inline constexpr std::size_t max_short_ranks = 2 * escape_ones;
 inline constexpr int escaped_rank_bits = 10;
@@ -74,7 +74,7 @@ inline constexpr std::uint32_t max_steps_per_em = 1U << 26;
 inline constexpr std::uint8_t max_coordinate_bits = 32;
 inline constexpr double max_coordinate = 16.0;  // [em]
 
-// The values of a stroke's ink: start, end, half-widths and, unless all of the file are zero, offsets.
+// The values of a stroke's ink: start, end, half-widths and, unless they are zero throughout the file, offsets.
 inline constexpr std::size_t first_half_width = 2;
 inline constexpr std::size_t first_offset = first_half_width + ink_knot_count;
 inline constexpr std::size_t values_per_ink = first_offset + ink_knot_count;
@@ -82,24 +82,24 @@ inline constexpr std::size_t values_per_ink = first_offset + ink_knot_count;
 /// A stroke's ink in steps.
 using InkSteps = std::array<std::int32_t, values_per_ink>;
 
-// What a value differs from what is expected, 0, -1, 1, -2, ..., is stored in a Rice code. As many ones escape to the
-// number itself.
+// The difference of a value from the expected one, numbered 0, -1, 1, -2, ..., is stored in a Rice code. This many ones
+// escape to the plain number.
 inline constexpr int ink_escape_ones = 20;
 inline constexpr int ink_escaped_bits = 17;
 inline constexpr std::uint8_t max_ink_parameter = 15;
-inline constexpr std::uint32_t max_ink_steps_per_em = 16384;  ///< whose difference has no more than the escaped bits
+inline constexpr std::uint32_t max_ink_steps_per_em = 16384;  ///< so that a difference fits in the escaped bits
 
 /// How the ink of a file is stored.
 struct InkCode {
   std::uint32_t steps_per_em = 0;  ///< 0: values are doubles
   std::size_t values = 0;          ///< per stroke; 0: there is no ink
   std::array<std::uint8_t, values_per_ink> parameters{};  ///< of the Rice code of each value
-  std::vector<InkSteps> usual;  ///< of the most frequent kinds of strokes, and last of all others
+  std::vector<InkSteps> usual;                            ///< one per frequent kind of stroke, then one for all others
 
   const InkSteps& usual_of(std::size_t kind) const noexcept { return usual[std::min(kind, usual.size() - 1)]; }
 };
 
-/// The value expected where the one before was `off` what is usual: a brush that presses harder does so for a while.
+/// The value expected after one that was `off` from the usual one: a brush that presses harder does so for a while.
 constexpr std::int32_t expected_ink(const InkSteps& usual, std::size_t value, std::int32_t off) {
   const bool follows = value > first_half_width && value < first_offset;
   return usual[value] + (follows ? off >> 1 : 0);

@@ -1,4 +1,4 @@
-// Decoding of the strokes of a character (docs/set-file.md).
+// Decodes the strokes of a character (docs/set-file.md).
 #include <bit>
 #include <cmath>
 
@@ -45,7 +45,7 @@ class PointReader {
   std::uint64_t at_;
 };
 
-/// Reads a sequence of strokes: their kinds.
+/// Reads the kinds of a sequence of strokes.
 class KindReader {
  public:
   KindReader(const SetFile& file, std::uint64_t at) noexcept
@@ -86,7 +86,7 @@ class InkReader {
   InkReader(const SetFile& file, std::uint64_t at) noexcept
       : bytes_(file.bytes()), kinds_(file.kinds()), code_(file.ink_code()), at_(at) {}
 
-  /// The ink of a stroke of this kind. False if a value is outside its domain.
+  /// Reads the ink of a stroke of this kind. Returns false if a value is outside its domain.
   bool next(const StrokeKind& kind, StrokeInk& ink) noexcept {
     const InkSteps* const usual =
         code_.steps_per_em == 0 ? nullptr : &code_.usual_of(static_cast<std::size_t>(&kind - kinds_.data()));
@@ -135,7 +135,7 @@ class InkReader {
   std::span<const StrokeKind> kinds_;
   const InkCode& code_;
   std::uint64_t at_;
-  std::int32_t off_ = 0;  ///< what the last value differs from the usual one [step]
+  std::int32_t off_ = 0;  ///< difference of the last value from the usual one [step]
 };
 
 }  // namespace
@@ -154,7 +154,7 @@ int StoredCharacter::stroke_id(int index) const noexcept {
 }
 
 std::optional<StoredStroke> StoredCharacter::stroke(int index) const noexcept {
-  std::optional<StoredStroke> result(std::in_place);  // decoded in place, as it has hundreds of bytes
+  std::optional<StoredStroke> result(std::in_place);  // decoded in place, as it takes hundreds of bytes
   if (!decode(index, *result)) result.reset();
   return result;
 }

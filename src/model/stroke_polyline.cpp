@@ -10,8 +10,8 @@
 namespace calligraphy {
 namespace {
 
-/// Number of pieces of equal parameter length that keep a curve within the tolerance of its chords: max |B''| / 8 /
-/// pieces^2 bounds the distance.
+/// Number of equal parameter intervals that keep a curve within the tolerance of its chords, whose distance is at most
+/// max |B''| / 8 / pieces^2.
 template <int Degree>
 int piece_count(const Bezier<Degree>& curve, double tolerance) {
   double bend = 0.0;

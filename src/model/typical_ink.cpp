@@ -19,7 +19,7 @@ static_assert(std::size(typical_inks) == typical_stroke_count);
 const TypicalInk& row_of(int id) { return typical_inks[typical_stroke(id).id - 1]; }
 
 double length_of(const Stroke& stroke) {
-  constexpr double shortest = 0.05;  // [em]; of a dot that is a point
+  constexpr double shortest = 0.05;  // [em]; for a dot that is a point
   const std::vector<Point> path = stroke_polyline(stroke);
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();

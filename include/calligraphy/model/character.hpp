@@ -15,18 +15,18 @@ namespace calligraphy {
 
 /// Shape: the control points of all strokes, one stroke after the other.
 struct StructuralData {
-  std::vector<Point> control_points;  ///< neighbouring elements of a stroke share one, neighbouring strokes none [em]
+  std::vector<Point> control_points;  ///< adjacent elements of a stroke share one, adjacent strokes none [em]
 };
 
-/// Order: the typical strokes in writing order, what they consist of, and which control points are feature points.
+/// Order: the typical strokes in writing order, their elements, and which control points are feature points.
 struct SequenceData {
   std::vector<int> stroke_ids;        ///< typical stroke ids, in writing order
   std::vector<int> feature_points;    ///< indices into StructuralData::control_points, in writing order
-  std::vector<ElementList> elements;  ///< of each stroke: as many as its typical stroke has, those or others
+  std::vector<ElementList> elements;  ///< of each stroke: as many as its typical stroke has, of the same or other kinds
 };
 
-/// Force: the attraction factor at each feature point, a multiple of the guidance stiffness [1]; and how wide the brush
-/// is, where that is known.
+/// Force: the attraction factor at each feature point, a multiple of the guidance stiffness [1]; and the width of the
+/// brush, if known.
 struct PhysicalData {
   std::vector<double> attraction_factors;  ///< one per feature point
   std::vector<StrokeInk> ink;              ///< of each stroke, or empty
@@ -39,7 +39,7 @@ struct Stroke {
   int curve_degree;                            ///< of every CSE: 3, or 4 as printed in eq. (1)
   std::span<const Point> control_points;       ///< of its elements, which share their ends, in writing order [em]
   std::span<const double> attraction_factors;  ///< one per feature point [1]
-  const StrokeInk* ink = nullptr;              ///< null if it has none
+  const StrokeInk* ink = nullptr;              ///< null if there is none
 };
 
 /// A character, with structural, sequence and physical data kept separate. Frame: em square, y up.
@@ -57,18 +57,17 @@ struct Character {
 
 /// A stroke as input to make_character().
 struct StrokeInput {
-  int id;                                       ///< of the typical stroke, 1 to 39
+  int id;                                       ///< typical stroke id, 1 to 39
   std::vector<Point> control_points;            ///< of its elements, which share their ends, in writing order [em]
-  std::vector<double> attraction_factors = {};  ///< one per feature point [1]; empty: all 1
-  ElementList elements = {};                    ///< as many as the typical stroke has; empty: those
-  std::optional<StrokeInk> ink = std::nullopt;  ///< of all strokes of a character, or of none
+  std::vector<double> attraction_factors = {};  ///< one per feature point [1]; if empty, all 1
+  ElementList elements = {};                    ///< as many as the typical stroke has; if empty, its own
+  std::optional<StrokeInk> ink = std::nullopt;  ///< given for all strokes of a character or for none
 
-  /// Its elements, or those of the typical stroke where `elements` is empty. @throws ValueError if there is no such
-  /// typical stroke
+  /// `elements`, or those of the typical stroke if empty. @throws ValueError if there is no such typical stroke
   ElementList composition() const { return elements.empty() ? ElementList(typical_stroke(id).elements) : elements; }
 };
 
-/// A stroke of a character as input, to be changed. `elements` is empty if they are those of the typical stroke.
+/// A stroke of a character as editable input. `elements` is empty if they are those of the typical stroke.
 StrokeInput input_of(const Stroke& stroke);
 
 /// Builds a character from its strokes in writing order.
@@ -89,7 +88,7 @@ struct ValidationIssue {
 
 /// Everything that makes a character unusable: wrong counts, ids, compositions or indices, points that are not finite
 /// or far outside the em square, missing factors, elements of zero length (except that a stroke of a single LSE may be
-/// a point), joints that bend by more than 15 degrees although smooth in their typical stroke, and ink that is
+/// a point), joints that bend by more than 15 degrees although their typical stroke is smooth there, and ink that is
 /// negative, beyond 1 em or not finite. Empty if the character is valid.
 std::vector<ValidationIssue> validate(const Character& character);
 

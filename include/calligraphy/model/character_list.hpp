@@ -14,12 +14,11 @@ namespace calligraphy {
 /// Characters and their provenance.
 struct CharacterList {
   Provenance provenance;  ///< of all of them
-  std::vector<Character>
-      characters;  ///< in any order; one that is written in several stroke orders occurs once for each
+  std::vector<Character> characters;  ///< in any order; one with several stroke orders occurs once for each
 
   /// The character in the stroke order of this name (empty: the standard one), or null. O(characters).
   const Character* find(char32_t code, std::string_view order = {}) const noexcept;
-  /// The same. @throws ValueError naming the character and the number of characters in the list if it has none
+  /// The same. @throws ValueError naming the character and the number of characters in the list if it is not there
   const Character& at(char32_t code, std::string_view order = {}) const;
 };
 
@@ -27,7 +26,7 @@ struct CharacterList {
 const CharacterList& built_in_characters();
 
 /// The five-stroke character of Table 3, verbatim: ids 2, 1, 10, 31, 4; 15 control points, 13 feature points. It is 北
-/// with a bend of lines and the pie written last; built_in_characters() has 北 in the standard order.
+/// with a bend made of lines and the pie written last; built_in_characters() has 北 in the standard order.
 const Character& paper_example();
 
 /// Reads the text format of docs/character-format.md. `name` is used in messages.

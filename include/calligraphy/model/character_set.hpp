@@ -49,8 +49,8 @@ struct StoredStroke {
   }
 };
 
-/// A character of a set: a view that keeps the bytes of the set alive and decodes on request. A default-constructed one
-/// has no strokes, and neither has a damaged one.
+/// A character of a set: a view that keeps the bytes of the set alive and decodes on request. A default-constructed or
+/// damaged one has no strokes.
 class StoredCharacter {
  public:
   /// Unicode code point.
@@ -81,7 +81,7 @@ class StoredCharacter {
  private:
   friend class SetFile;
 
-  /// False if there is no such stroke or it is damaged.
+  /// Returns false if there is no such stroke or it is damaged.
   bool decode(int index, StoredStroke& stroke) const noexcept;
 
   std::shared_ptr<const SetFile> file_;
@@ -109,16 +109,16 @@ class CharacterSet {
   static CharacterSet open(const std::string& path);
   /// A set from the bytes of a set file. `name` is used in messages. @throws FormatError
   static CharacterSet from_bytes(std::vector<std::byte> bytes, std::string name);
-  /// Several sets as one. If several have a character, the one of the first set is found.
+  /// Several sets as one. For a character that several contain, the first set wins.
   static CharacterSet layered(std::span<const CharacterSet> sets);
 
   /// The character in the stroke order of this name; if that is empty, in the standard order or else the first one
   /// available. Safe in the servo loop: does not allocate, lock or throw. The first use of each group of 64
   /// neighbouring code points verifies its checksum; a damaged character is found, but has no strokes.
   std::optional<StoredCharacter> find(char32_t code, std::string_view order = {}) const noexcept;
-  /// Names of all stroke orders of a character; that of the standard one is empty.
+  /// Names of all stroke orders of a character; the standard one has an empty name.
   std::vector<std::string> orders(char32_t code) const;
-  /// Every form of a character, those that another layer hides too: of each layer, in every stroke order.
+  /// Every form of a character: in each layer, even if hidden by another, and in every stroke order.
   std::vector<StoredCharacter> forms(char32_t code) const;
   /// The first character at or after this code point, if any.
   std::optional<char32_t> next(char32_t from) const noexcept;
@@ -131,7 +131,7 @@ class CharacterSet {
 
   /// Number of characters. O(index) for one set, O(characters) for layered ones.
   std::size_t size() const noexcept;
-  /// Size of all layers together [byte]; of characters in memory or in the text format, that of their encoding.
+  /// Total size of all layers [byte]; characters in memory or in the text format count as encoded.
   std::size_t bytes() const noexcept;
   /// Provenance of each layer.
   std::vector<Provenance> provenances() const;
@@ -164,7 +164,7 @@ class CharacterSet::Iterator {
   Iterator() = default;
   /// The character, as found by CharacterSet::find() in the standard order or else the first one. Not at the end.
   StoredCharacter operator*() const noexcept { return *set_->find(*code_); }
-  /// To the next higher code point of the set. Not at the end.
+  /// Moves on to the next higher code point of the set. Not at the end.
   Iterator& operator++() noexcept {
     code_ = set_->next(*code_ + 1);
     return *this;

@@ -17,19 +17,19 @@ enum class ElementKind : char {
   curve = 'C'  ///< CSE: one more control point than its degree
 };
 
-/// No stroke has more elements than the typical strokes with the most.
+/// Maximum number of elements of a stroke: that of the typical strokes with the most.
 inline constexpr int max_elements_per_stroke = 5;
-/// No curve of a character has a higher degree: quartics are those printed in eq. (1).
+/// Maximum degree of a curve of a character: the quartics printed in eq. (1).
 inline constexpr int max_curve_degree = 4;
-/// A stroke of any composition fits in storage of this size.
+/// Maximum number of control points of a stroke, whatever its composition.
 inline constexpr int max_control_points_per_stroke = max_elements_per_stroke * max_curve_degree + 1;
 
-/// Up to five elements, each a line or a curve; written as "LCL". In two bytes, as characters have many.
+/// Up to five elements, each a line or a curve; written as "LCL". Takes two bytes, as characters have many.
 class ElementList {
  public:
-  /// No elements: wherever a composition is given, that of the typical stroke.
+  /// No elements: stands for the composition of the typical stroke.
   constexpr ElementList() = default;
-  /// From letters, one per element. @throws ValueError unless these are at most five of 'L' and 'C'
+  /// From letters, one per element. @throws ValueError unless there are at most five, all 'L' or 'C'
   constexpr ElementList(std::string_view elements) {
     size_ = static_cast<std::uint8_t>(elements.size());
     if (elements.size() > max_elements_per_stroke) refuse(elements);
@@ -53,7 +53,7 @@ class ElementList {
 
   /// Number of elements.
   constexpr std::size_t size() const noexcept { return size_; }
-  /// Whether there is no element, which stands for those of the typical stroke.
+  /// Whether there are no elements, which stands for those of the typical stroke.
   constexpr bool empty() const noexcept { return size_ == 0; }
   /// Which elements are curves, the first one in the lowest bit.
   constexpr unsigned curves() const noexcept { return curves_; }
@@ -66,7 +66,7 @@ class ElementList {
   [[noreturn]] static void refuse(std::string_view elements);
 
   static constexpr std::size_t lists_ = std::size_t{1} << max_elements_per_stroke;
-  /// By curves(), for the most elements.
+  /// By curves(), each with the maximum number of elements.
   static const std::array<std::array<char, max_elements_per_stroke>, lists_> all_;
 
   std::uint8_t size_ = 0;
@@ -74,12 +74,12 @@ class ElementList {
 };
 
 /// Number of control points of a stroke with these elements and curves of the given degree: 3 by default, 4 as printed
-/// in eq. (1). A line adds one and a curve as many as its degree, because elements share their ends.
+/// in eq. (1). A line adds one and a curve adds its degree, because elements share their ends.
 constexpr int control_point_count(ElementList elements, int curve_degree = 3) noexcept {
   return 1 + static_cast<int>(elements.size()) + (curve_degree - 1) * std::popcount(elements.curves());
 }
 
-/// Number of feature points of a stroke with these elements: one more than elements.
+/// Number of feature points of a stroke with these elements: one more than there are elements.
 constexpr int feature_point_count(ElementList elements) noexcept { return static_cast<int>(elements.size()) + 1; }
 
 /// Indices of the feature points among the control points of a stroke (Wang 2006, sec. 3.4).

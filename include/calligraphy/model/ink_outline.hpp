@@ -1,4 +1,4 @@
-// The shape of ink: what to fill to draw a stroke with the width of the brush.
+// The shape of ink, to be filled to draw a stroke as wide as the brush.
 #pragma once
 
 #include <span>
@@ -16,15 +16,15 @@ struct InkDisc {
   double radius;  ///< half the width of the brush there [em]
 };
 
-/// Ink along a path, a polyline [em], as discs equally far along it once it is drawn out: at most `spacing` apart, but
-/// no more than 2000. Sideways is at right angles to the chord from 0.02 em before a point to 0.02 em after it, so that
+/// Ink along a path, a polyline [em], as discs evenly spaced along the extended path: at most `spacing` apart, but no
+/// more than 2000. Sideways means perpendicular to the chord from 0.02 em before a point to 0.02 em after it, so
 /// corners are rounded. Centres and radii are linear in the offsets and half-widths of the profile.
 /// @throws ValueError if the path has no point or the spacing is not positive
 std::vector<InkDisc> ink_discs(std::span<const Point> path, const StrokeInk& ink, double spacing = 0.004);
 
 /// Outline of the ink along a path: a closed polygon, counter-clockwise, whose last vertex is joined to the first,
-/// within about `tolerance` of the discs' envelope [em]. To be filled by the nonzero rule, the default of SVG, Cairo,
-/// the canvas of a web page and Matplotlib: where a stroke crosses itself or folds back, so does the outline.
+/// within about `tolerance` of the discs' envelope [em]. Fill it by the nonzero rule, the default of SVG, Cairo, HTML
+/// canvas and Matplotlib: where a stroke crosses itself or folds back, so does the outline.
 /// @throws ValueError if the path has no point or the tolerance is not positive
 std::vector<Point> ink_outline(std::span<const Point> path, const StrokeInk& ink, double tolerance = 5e-4);
 

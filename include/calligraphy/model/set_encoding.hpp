@@ -8,17 +8,17 @@
 
 namespace calligraphy {
 
-/// Precision of the control points and the ink in a set file. At any precision a valid character stays valid: one that
+/// Precision of the control points and the ink in a set file. A valid character stays valid at any precision: one that
 /// rounding would invalidate, or that lies far outside the em square, is stored more precisely than the others.
 enum class CoordinatePrecision {
-  coarse,    ///< steps of 1/200 em: 8 bits per coordinate; of ink 1/400 em
-  standard,  ///< steps of 1/800 em: 10 bits; of ink the same
-  fine,      ///< steps of 1/12800 em: 14 bits; of ink the same
+  coarse,    ///< steps of 1/200 em: 8 bits per coordinate; ink in steps of 1/400 em
+  standard,  ///< steps of 1/800 em: 10 bits; the same for ink
+  fine,      ///< steps of 1/12800 em: 14 bits; the same for ink
   exact      ///< unquantised: 64 bits
 };
 
 /// Maximum distance between a stored control point and the original one [em]: half the diagonal of a step, plus
-/// rounding of doubles. It bounds the error of strokes too, as two curves are no farther apart than their control
+/// rounding of doubles. It also bounds the error of strokes, since two curves are no farther apart than their control
 /// points.
 double coordinate_error_bound(CoordinatePrecision precision) noexcept;
 

@@ -1,4 +1,4 @@
-// The 39 typical strokes from which every character is made (Wang 2006, sec. 3.1, Fig. 7).
+// The 39 typical strokes that make up every character (Wang 2006, sec. 3.1, Fig. 7).
 #pragma once
 
 #include <array>
@@ -30,10 +30,10 @@ struct TypicalStroke {
   std::span<const std::array<double, 2>> shape;  ///< typical control points, cubic curves [em]
 
   /// Its composition as the paper counts it, with a line for a round bend (Table 3, Figs. 11 and 12), if that differs.
-  /// Files of format 1 have this one.
+  /// Files of format 1 use it.
   std::string_view printed_elements = {};
 
-  /// `printed_elements`, or `elements` where the paper counts no other.
+  /// `printed_elements`, or `elements` if the paper's composition does not differ.
   constexpr std::string_view as_printed() const noexcept {
     return printed_elements.empty() ? elements : printed_elements;
   }
@@ -45,8 +45,8 @@ std::span<const TypicalStroke> typical_strokes() noexcept;
 /// The typical stroke with this id. @throws ValueError if id is not in 1..39
 const TypicalStroke& typical_stroke(int id);
 
-/// Whether a stroke of this type but with these elements is smooth after element `index`: where the typical stroke is,
-/// unless the joint is one between two lines.
+/// Whether a stroke of this type but with these elements is smooth after element `index`: wherever the typical stroke
+/// is, except at a joint between two lines.
 constexpr bool is_smooth_joint(const TypicalStroke& type, std::string_view elements, std::size_t index) {
   constexpr char curve = static_cast<char>(ElementKind::curve);
   return type.joints[index] == 's' && (elements[index] == curve || elements[index + 1] == curve);
