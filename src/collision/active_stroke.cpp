@@ -7,18 +7,18 @@
 namespace calligraphy {
 namespace {
 
-/// A pen with less than this fraction of the guidance is not writing the stroke: it may be on a nearby stroke.
+/// A pen with less than this fraction of the guidance is not writing the stroke: it may be on a stroke nearby.
 constexpr double min_weight = 0.5;
 
-/// A feature plane counts as crossed this far before it is reached, at most this share of the element's length: people
-/// stop short [em].
+/// A feature plane counts as crossed this far before it is reached [em], limited to this share of the element's length:
+/// people stop short.
 constexpr double plane_tolerance = 0.0375, plane_tolerance_share = 0.3;
 
-/// The closest point is searched within this arc length of the last one, so that a sharp bend, a loop or a nearby part
-/// of the stroke cannot attract the pen out of order [em].
+/// The closest point is searched for within this arc length of the last one [em], so that a sharp bend, a loop or a
+/// nearby part of the stroke cannot attract the pen out of order.
 constexpr double window = 0.2;
 
-/// Most that an offset at the start may bring a corner forward [em].
+/// Limit on how much earlier an offset at the start may let the pen turn a corner [em].
 constexpr double max_early_turn = 0.05;
 
 }  // namespace
@@ -44,12 +44,12 @@ void ActiveStroke::reload() noexcept {
   arc_ = 0.0;
   parameter_ = 0.0;
   furthest_ = 0.0;
-  misplaced_ = Point::Zero();
+  start_offset_ = Point::Zero();
 }
 
 void ActiveStroke::begin(const Point& tip) noexcept {
   reload();
-  misplaced_ = tip - start();
+  start_offset_ = tip - start();
 }
 
 StrokeContact ActiveStroke::nearest(const Point& tip, const StrokeOptions& options) const noexcept {
@@ -113,13 +113,13 @@ void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
   if (contact.weight < min_weight) return false;
   const double length = here.element.length();
   const double tolerance = std::min(plane_tolerance * em_, plane_tolerance_share * length);
-  // Near the feature point along the stroke too: a plane also crosses other parts of the same stroke. On a curve the
-  // closest point may lag behind the plane by more than the tolerance, but not by more than twice the tolerance unless
-  // the pen is far away.
+  // The pen must also be near the feature point along the stroke: a plane crosses other parts of the same stroke too.
+  // On a curve the closest point may lag behind the plane by more than the tolerance, but not by more than twice the
+  // tolerance unless the pen is far away.
   const double beyond = here.last_arc - contact.arc - 2.0 * tolerance - 1e-6 * length;
-  if (beyond > 0.0 && beyond * beyond > misplaced_.squaredNorm()) return false;
-  // One who began the stroke before its start may turn as much before the corner.
-  const double early = std::clamp(-here.end.normal.dot(misplaced_), 0.0, max_early_turn * em_);
+  if (beyond > 0.0 && beyond * beyond > start_offset_.squaredNorm()) return false;
+  // A writer who began before the start of the stroke may turn equally early before the corner.
+  const double early = std::clamp(-here.end.normal.dot(start_offset_), 0.0, max_early_turn * em_);
   if (here.end.signed_distance(tip) >= -tolerance - early) return true;
   // A pen that stays on the inside of a corner never reaches the plane: it passes on the bisector, where both elements
   // attract it equally.
@@ -145,7 +145,7 @@ StrokeContact ActiveStroke::update(const Point& tip, const StrokeOptions& option
   StrokeContact contact = locate(tip, options);
   if (!is_finished() && passes(tip, contact, options)) pass_feature(tip, options, contact);
   parameter_ = contact.closest.parameter;
-  // A pen at the edge of the constraint space or outside makes no progress: a stroke cannot be finished without being
+  // A pen at or beyond the edge of the constraint space makes no progress: a stroke cannot be finished without being
   // written.
   if (contact.weight >= min_weight) {
     arc_ = contact.arc - part(contact.element).first_arc;

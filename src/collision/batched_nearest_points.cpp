@@ -13,7 +13,7 @@ namespace calligraphy {
 namespace {
 
 constexpr std::size_t block_size = 32;
-constexpr std::size_t lanes = 4;  // of the widest SIMD register used, in doubles
+constexpr std::size_t lanes = 4;  // doubles in the widest SIMD register used
 
 /// Queries with one minimum each, one array per quantity: loops over them vectorise.
 struct Block {
@@ -24,7 +24,7 @@ struct Block {
   std::array<double, block_size> point_x, point_y, distance, tangent_x, tangent_y, speed;
 };
 
-/// The same operations as for one query, in the same order, so that the results are the same to the last bit.
+/// Performs the operations of a single query in the same order, so the results are the same to the last bit.
 template <int Degree>
 [[gnu::always_inline]] inline void polish_block(const CurveElement& curve, Block& block) {
   const std::size_t count = (block.count + lanes - 1) / lanes * lanes;
@@ -119,7 +119,7 @@ template <int Degree>
 }
 #endif
 
-/// By degree minus 2. The baseline until the processor has been detected at program start.
+/// Indexed by degree minus 2. Holds the baseline until the processor has been detected at program start.
 constinit std::array<Method, 3> methods = {answer_baseline<2>, answer_baseline<3>, answer_baseline<4>};
 
 #if defined(__SSE2__)

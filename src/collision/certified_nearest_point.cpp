@@ -21,7 +21,7 @@ namespace {
   return search_minima(curve, query, tolerance, range);
 }
 
-/// The distance falls, or grows, all along the curve.
+/// For a distance that falls, or grows, all along the curve.
 template <int Degree>
 [[gnu::always_inline]] inline NearestPoint end_of(const CurveElement& curve, bool falls, Pair query,
                                                   const ParameterRange& range) {
@@ -29,7 +29,8 @@ template <int Degree>
                       NearestPointStatus::certified);
 }
 
-/// The only minimum of the whole curve is also the result within a range, or else the nearer end of the range is.
+/// For a single minimum on the whole curve: the result is that minimum if it lies within the range, otherwise the
+/// nearer end of the range.
 template <int Degree>
 [[gnu::always_inline]] inline NearestPoint answer_within(const CurveElement& curve, const Candidate& minimum,
                                                          Pair query, double tolerance, const ParameterRange& range) {
@@ -42,8 +43,8 @@ template <int Degree>
   return curve_answer(curve, end, NearestPointStatus::certified);
 }
 
-/// Several sign changes on the whole curve, all certain: each cell with one change from - to + contains one minimum.
-/// The nearest of these and of the ends is the result.
+/// For several sign changes on the whole curve, all certain: each cell with one change from - to + contains one
+/// minimum. The result is the nearest of these and the ends.
 template <int Degree>
 [[gnu::noinline]] NearestPoint nearest_of_several(const CurveElement& curve,
                                                   SlopeSigns<CurveElement::max_ordinates> signs, Pair query,
@@ -59,7 +60,7 @@ template <int Degree>
   }
   const SlopePolynomial<Degree> polynomial(curve, query);
   Candidate best = candidate<Degree>(curve, query, 0.0);
-  // From - to + only: the others are maxima.
+  // Only changes from - to +: the others are maxima.
   for (std::uint64_t changes = signs.changes() & signs.negative; changes != 0; changes &= changes - 1) {
     const int change = std::countr_zero(changes);
     const int cell = change / per_cell;
@@ -120,7 +121,7 @@ template <int Degree>
 }
 #endif
 
-/// By degree minus 2. The baseline until the processor has been detected at program start.
+/// Indexed by degree minus 2. Holds the baseline until the processor has been detected at program start.
 constinit std::array<CertifiedMethod, 3> certified_methods = {certified_baseline<2>, certified_baseline<3>,
                                                               certified_baseline<4>};
 

@@ -10,11 +10,11 @@ namespace calligraphy {
 NearestPoint certified_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                      const ParameterRange& range) noexcept;
 
-/// For many queries; the same as one by one, to the last bit.
+/// Many queries at once; each result equals that of a single query to the last bit.
 void certified_nearest_points(const CurveElement& curve, std::span<const Point> queries,
                               std::span<NearestPoint> results, double tolerance) noexcept;
 
-/// The same point, starting from the last one.
+/// The same point, searched from the last parameter.
 NearestPoint tracked_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                    const ParameterRange& range, double start) noexcept;
 

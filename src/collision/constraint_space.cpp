@@ -3,7 +3,7 @@
 namespace calligraphy {
 
 /// Wang 2006, sec. 4.3.1 (a)-(d) for an LSE. Sec. 4.3.2 gives a CSE a "spherical neighboring area around the start
-/// point" without a radius; interpreted, as for an LSE, as the distance from its start to its end.
+/// point" without a radius; it is taken, as for an LSE, to be the distance from start to end.
 double printed_weight(const StrokeElement& element, const Point& query, const NearestPoint& closest) noexcept {
   if (!(element.size() > 0.0)) return 1.0;  // (d)
   const bool ahead =

@@ -14,7 +14,7 @@ namespace calligraphy {
   return (pair(query) - pair(curve.origin)) * curve.per_size;
 }
 
-/// In pairs of terms, for a short dependency chain.
+/// Evaluates pairs of terms, for a short dependency chain.
 template <int Degree, typename Vector = Pair>
 [[gnu::always_inline]] inline Vector place(const CurveElement& curve, double t) {
   const auto c = [&](std::size_t k) __attribute__((always_inline)) {

@@ -20,7 +20,7 @@ constexpr double at_end = 1e-6;
 /// Coefficients or ordinates of one part of g: the factor of q_x, the factor of q_y, or the constant.
 using Row = std::array<double, 2 * max_curve_degree>;
 
-/// From the power basis to the Bernstein basis over [0, 1].
+/// Converts from the power basis to the Bernstein basis over [0, 1].
 template <int Degree>
 void to_bernstein(Row& row) {
   for (std::size_t i = 1; i < Degree; ++i) row[i] *= 1.0 / binomial[Degree][i];
@@ -30,8 +30,8 @@ void to_bernstein(Row& row) {
 }
 
 /// Divides by t as often as the curve starts with zero speed, and by 1 - t as often as it ends so: there g vanishes for
-/// every query, which would leave its sign undecided. The signs inside are preserved, and so is the degree, by
-/// elevation.
+/// every query, which would leave its sign undecided. The signs inside are preserved; degree elevation preserves the
+/// degree.
 template <int Degree>
 void divide_zeros_out(Row& row, int from_start, int from_end) {
   const int reduced = Degree - from_start - from_end;
@@ -66,7 +66,7 @@ constexpr std::array<std::array<double, Count>, Degree + 1> subdivision(int cell
     rest[unit] = 1.0;
     std::size_t next = 0;
     weights[unit][place_of_ordinate<Count>(next++)] = rest[0];
-    // De Casteljau's algorithm splits one cell after the other off the rest.
+    // De Casteljau's algorithm splits off one cell after the other.
     for (int left = cells; left > 0; --left) {
       std::array<double, Degree + 1> cell = rest;
       for (std::size_t k = 0; left > 1 && k <= Degree; ++k) {
@@ -128,8 +128,8 @@ int equal_run(Iterator begin, Iterator end) {
   return static_cast<int>(other - begin);
 }
 
-/// Gauss-Legendre quadrature of the speed with 2 nodes per interval; in units of the size first, so that squares
-/// neither overflow nor underflow.
+/// Gauss-Legendre quadrature of the speed with 2 nodes per interval, in units of the size so that squares neither
+/// overflow nor underflow.
 void prepare_arc(CurveElement& curve) {
   constexpr double node = 0.57735026918962576;
   constexpr double half = 0.5 / CurveElement::arc_intervals;

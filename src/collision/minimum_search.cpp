@@ -63,7 +63,7 @@ class MinimumSearch {
     return square;
   }
 
-  /// Cells whose ordinates all have certain signs only need to be inspected.
+  /// Only inspects cells whose ordinates all have certain signs.
   void search_cells() {
     const CertainSigns signs = certain_signs(curve_.ordinates, query_);
     const double width = 1.0 / curve_.cells;
@@ -75,7 +75,7 @@ class MinimumSearch {
       if (negative == all || positive == all) continue;
       const double begin = cell * width, end = begin + width;
       const bool whole = begin >= range_.begin && end <= range_.end;
-      // An uncertain sign between certain ones that differ leaves one change, whatever it is.
+      // An uncertain sign between differing certain ones leaves one change, whichever it is.
       if (whole && starts_and_ends(positive, negative, all)) continue;  // from + to -: a maximum
       if (whole && starts_and_ends(negative, positive, all)) {
         const int last = std::countr_one(negative) - 1, next = std::countr_zero(positive);
@@ -173,8 +173,8 @@ class MinimumSearch {
     // An improvement below a thousandth of the tolerance, or below rounding, does not justify bisection.
     const double slack = 2e-3 * tolerance_ * larger_coordinate(best_.offset) + 2.0 * unit_rounding * best_square_;
     if (min_square(interval, *lowest, *highest) >= best_square_ - slack) return false;
-    // Signs within rounding of zero: one between different ones leaves one change whatever it is; at an end they can
-    // only hide a minimum as near as the end itself.
+    // A sign within rounding of zero leaves one change between differing signs, whichever it is; at an end it can only
+    // hide a minimum as near as the end itself.
     const double noise = 16.0 * unit_rounding * max_product(interval);
     int changes = 0, change = 0, last = -1;
     bool doubtful = false;
@@ -248,8 +248,8 @@ class MinimumSearch {
     offer(t);
   }
 
-  /// Where rounding decides the sign of g: whether its zero is near, or on which side it lies, by the nearest positions
-  /// on both sides where the sign is certain.
+  /// For a t where rounding decides the sign of g: whether the zero is here, or else on which side it lies, according
+  /// to the nearest positions on both sides where the sign is certain.
   bool zero_is_here(double t, double& low, double& high) const {
     for (double aside = narrowest;; aside *= 4.0) {
       const double left = std::max(t - aside, low), right = std::min(t + aside, high);
@@ -267,8 +267,8 @@ class MinimumSearch {
     return std::abs(value) <= noise(at) ? 0 : value < 0.0 ? -1 : 1;
   }
 
-  /// Rounding error of g: from the position, relative to the size, and from the velocity, relative to the terms that it
-  /// is the sum of.
+  /// Rounding error of g: from the position, relative to the size, and from the velocity, relative to the terms of its
+  /// sum.
   double noise(const Candidate& at) const {
     double speed = 0.0;
     for (std::size_t k = 0; k < Degree; ++k) {

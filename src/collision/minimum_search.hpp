@@ -1,4 +1,4 @@
-// Isolates every minimum of the distance from a query to a curve: for cases that the signs alone do not decide.
+// Isolates every minimum of the distance from a query to a curve, for cases that the signs alone do not decide.
 #pragma once
 
 #include <calligraphy/collision/nearest_point.hpp>

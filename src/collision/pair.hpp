@@ -1,4 +1,4 @@
-// Two coordinates, for the searches. All of it is inlined: a call from code for wide registers into code compiled
+// Two coordinates, for the searches. Everything is inlined: a call from code for wide registers into code compiled
 // without them would cost more than the query.
 #pragma once
 
@@ -14,13 +14,13 @@
 
 namespace calligraphy {
 
-/// Both in one register: for a single query.
+/// Both coordinates in one register, for a single query.
 using Pair = double __attribute__((vector_size(16)));
 
 [[gnu::always_inline]] inline double x_of(Pair pair) { return pair[0]; }
 [[gnu::always_inline]] inline double y_of(Pair pair) { return pair[1]; }
 
-/// Each separately: for many queries in a loop that the compiler vectorises.
+/// Separate coordinates, for many queries in a loop that the compiler vectorises.
 struct Coordinates {
   double x, y;
 };
@@ -76,7 +76,7 @@ template <typename Vector>
 #endif
 }
 
-/// Also false for NaN.
+/// Whether both are within the limit; false for NaN.
 [[gnu::always_inline]] inline bool within(Pair query, double limit) {
   return std::abs(query[0]) <= limit && std::abs(query[1]) <= limit;
 }

@@ -1,4 +1,4 @@
-// From a good initial value to the nearest point: one step of Halley's method, one of Newton's, and a check of both.
+// Refines a good initial value to the nearest point: one step of Halley's method, one of Newton's, and a check of both.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace calligraphy {
 
-/// g(t) = (B(t) - q) . B'(t), half the slope of the squared distance, in powers of t. Fast to evaluate; what
-/// cancellation loses, a step on the curve itself restores.
+/// g(t) = (B(t) - q) . B'(t), half the slope of the squared distance, in powers of t. Fast to evaluate; a step on the
+/// curve itself restores what cancellation loses.
 template <int Degree>
 struct SlopePolynomial {
   static constexpr std::size_t terms = 2 * Degree;
@@ -55,7 +55,7 @@ struct SlopePolynomial {
     return static_cast<double>(k * (k - 1) * (k - 2) / 6) * c(k);
   }
 
-  /// Evaluated like the others by Estrin's scheme: pairs of terms in parallel, for short dependency chains.
+  /// Evaluated by Estrin's scheme, like the others: pairs of terms in parallel, for short dependency chains.
   [[gnu::always_inline]] double slope(double t, double square) const {
     double sum = static_cast<double>(last) * c(last);
     for (std::size_t k = last - 1; k >= 2; k -= 2) {

@@ -16,7 +16,7 @@ constexpr int block = 8;  // samples in parallel
 using Lanes = float __attribute__((vector_size(4 * block)));
 constexpr int max_refinements = 8;
 
-/// Per lane.
+/// Keeps the nearer sample of each lane.
 [[gnu::always_inline]] inline void take_nearer(Lanes& least, Lanes& nearest, const Lanes& square, const Lanes& index) {
   const auto nearer = square < least;
   least = nearer ? square : least;
@@ -24,7 +24,7 @@ constexpr int max_refinements = 8;
 }
 
 /// Index of the sample nearest to the query, by |B|^2 - 2 q . B: the squared distance minus the square of the query, so
-/// that a distant query loses no precision. In single precision, which is what makes this method fast.
+/// that a distant query loses no precision. Single precision makes this method fast.
 template <int Degree>
 [[gnu::always_inline]] inline int nearest_sample(const CurveElement& curve, Pair query, const ParameterRange& range,
                                                  int samples) {
@@ -45,7 +45,7 @@ template <int Degree>
     const Lanes square = x * (x - twice_x) + y * (y - twice_y);
     take_nearer(least, nearest, square, i);
   }
-  // Compares halves without branches, which no processor could predict.
+  // Compares halves without branches, which would be unpredictable.
   take_nearer(least, nearest, __builtin_shufflevector(least, least, 4, 5, 6, 7, 0, 1, 2, 3),
               __builtin_shufflevector(nearest, nearest, 4, 5, 6, 7, 0, 1, 2, 3));
   take_nearer(least, nearest, __builtin_shufflevector(least, least, 2, 3, 0, 1, 6, 7, 4, 5),
@@ -93,7 +93,7 @@ template <int Degree>
 }
 #endif
 
-/// By degree minus 2. The baseline until the processor has been detected at program start.
+/// Indexed by degree minus 2. Holds the baseline until the processor has been detected at program start.
 constinit std::array<RefinedMethod, 3> refined_methods = {refined_baseline<2>, refined_baseline<3>, refined_baseline<4>};
 
 #if defined(__SSE2__)

@@ -8,7 +8,7 @@
 
 namespace calligraphy {
 
-/// As many as fit: each takes 2 * degree - 1 ordinates, and one more ends the last.
+/// As many cells as fit: each takes 2 * degree - 1 ordinates, and the last takes one more.
 constexpr int cells_of_degree(int degree) {
   return (static_cast<int>(CurveElement::max_ordinates) - 1) / (2 * degree - 1);
 }

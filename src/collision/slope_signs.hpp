@@ -19,7 +19,7 @@ namespace calligraphy {
 template <std::size_t Count>
 struct SlopeSigns {
   std::uint64_t negative = 0;  ///< bit i: ordinate i is below zero
-  bool certain = false;        ///< rounding can flip no sign, and the query fits single precision
+  bool certain = false;        ///< rounding cannot flip any sign, and the query fits in single precision
 
   bool first_negative() const { return negative & 1U; }
   bool last_negative() const { return (negative >> (Count - 1)) & 1U; }
@@ -27,7 +27,7 @@ struct SlopeSigns {
   std::uint64_t changes() const { return (negative ^ (negative >> 1)) & ((std::uint64_t{1} << (Count - 1)) - 1); }
 };
 
-/// The same, without those that rounding could flip.
+/// Signs of the ordinates, without those that rounding could flip.
 struct CertainSigns {
   std::uint64_t negative = 0, positive = 0;
 };
@@ -44,7 +44,7 @@ inline float slope_ordinate(const SlopeOrdinates<Count>& ordinates, std::size_t 
   return (x * ordinates.x[at] + y * ordinates.y[at]) + ordinates.constant[at];
 }
 
-/// Plain C++ for any processor; the others give the same bits.
+/// Plain C++ for any processor; the other versions give the same bits.
 template <std::size_t Count>
 inline SlopeSigns<Count> slope_signs_portable(const SlopeOrdinates<Count>& ordinates, Pair query) {
   const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
@@ -61,7 +61,7 @@ inline SlopeSigns<Count> slope_signs_portable(const SlopeOrdinates<Count>& ordin
 
 #if defined(__SSE2__)
 
-/// Four ordinates, the first of which is number i.
+/// The four ordinates from number i on.
 template <std::size_t Count>
 [[gnu::always_inline]] inline __m128 slope_ordinates_sse2(const SlopeOrdinates<Count>& ordinates, std::size_t i,
                                                           __m128 x, __m128 y) {
@@ -71,7 +71,7 @@ template <std::size_t Count>
       _mm_load_ps(&ordinates.constant[at]));
 }
 
-/// Bit i: the sign of the i-th of sixteen.
+/// The signs of sixteen values: bit i is that of the i-th.
 [[gnu::always_inline]] inline std::uint64_t sixteen_signs(const __m128* values) {
   const __m128i low = _mm_packs_epi32(_mm_castps_si128(values[0]), _mm_castps_si128(values[1]));
   const __m128i high = _mm_packs_epi32(_mm_castps_si128(values[2]), _mm_castps_si128(values[3]));
@@ -154,7 +154,7 @@ inline CertainSigns certain_signs(const SlopeOrdinates<Count>& ordinates, Pair q
   return signs;
 }
 
-/// What every processor of the target architecture supports.
+/// Uses only what every processor of the target architecture supports.
 template <std::size_t Count>
 [[gnu::always_inline]] inline SlopeSigns<Count> slope_signs(const SlopeOrdinates<Count>& ordinates, Pair query) {
 #if defined(__SSE2__)

@@ -10,7 +10,7 @@
 namespace calligraphy {
 namespace {
 
-/// A smaller curve counts as a point: division by its size could overflow [m].
+/// A smaller curve counts as a point, since division by its size could overflow [m].
 constexpr double min_curve = 1e-300;
 
 /// Squares of anything larger overflow [m].

@@ -10,57 +10,57 @@
 
 namespace calligraphy {
 
-/// How a pen is followed along a stroke.
+/// How a pen is tracked along a stroke.
 struct StrokeOptions {
   NearestPointOptions nearest = {.method = NearestPointMethod::tracked};  ///< method and accuracy of the nearest point
-  ConstraintSpace space = {};                                             ///< within which the stroke attracts the pen
-  Rules rules = Rules::revised;  ///< of feature planes, attraction and constraint space
+  ConstraintSpace space = {};                                             ///< where the stroke attracts the pen
+  Rules rules = Rules::revised;  ///< rules of feature planes, attraction and constraint space
 };
 
 /// Position of the pen relative to the active stroke.
 struct StrokeContact {
   int element = 0;              ///< index of the active element
   NearestPoint closest;         ///< on the active element
-  double weight = 0.0;          ///< of the guidance force; 0 outside the constraint space
+  double weight = 0.0;          ///< weight of the guidance force; 0 outside the constraint space
   double attraction = 1.0;      ///< attraction factor at the closest point
   double arc = 0.0;             ///< arc length of the closest point from the start of the stroke [m]
   double backwards = 0.0;       ///< arc length of the closest point behind the furthest one reached [m]
-  bool passed_feature = false;  ///< a feature point was passed in this update
-  bool finished = false;        ///< the last feature point has been passed
+  bool passed_feature = false;  ///< whether this update passed a feature point
+  bool finished = false;        ///< whether the last feature point has been passed
 };
 
 /// A place on a stroke.
 struct StrokePlace {
   Point point = Point::Zero();    ///< [m, page]
-  Point tangent = Point::Zero();  ///< unit vector in writing direction; zero for a stroke that is a point
-  double curvature = 0.0;         ///< positive where the stroke bends to the left, see StrokeElement::curvature() [1/m]
+  Point tangent = Point::Zero();  ///< unit vector in writing direction; zero if the stroke is a point
+  double curvature = 0.0;         ///< positive where the stroke bends to the left: StrokeElement::curvature() [1/m]
 };
 
-/// One stroke of the page, so that the others take no time. load() comes first, and nothing else allocates.
+/// One stroke of a page; the others take no time. Call load() first; nothing else allocates.
 class ActiveStroke {
  public:
   /// Prepares the stroke and fills its stack of feature points. Takes some microseconds.
   void load(const Stroke& stroke, const Placement& placement);
 
-  /// Refills the stack of feature points: the pen was lifted before the end (sec. 4.3).
+  /// Refills the stack of feature points after the pen was lifted before the end (sec. 4.3).
   void reload() noexcept;
 
-  /// Refills it for a pen put down at `tip` [m, page]. A writer who begins beside the start may turn as far from each
-  /// feature point.
+  /// Refills the stack for a pen put down at `tip` [m, page]. A writer who begins beside the start may turn equally far
+  /// from each feature point.
   void begin(const Point& tip) noexcept;
 
-  /// Follows a pen that was put down where nearest() found it, without having written what comes before.
+  /// Tracks a pen put down where nearest() found it, although the part of the stroke before was not written.
   void rest(const StrokeContact& nearest) noexcept;
 
   /// Tracks the pen tip at `tip` [m, page]. At most one feature point is passed per call.
   StrokeContact update(const Point& tip, const StrokeOptions& options) noexcept;
 
-  /// Position of a pen at `tip` [m, page] that is not writing the stroke: its nearest point on the whole of it, without
-  /// effect on its progress, and without its attraction factor.
+  /// Position of a pen at `tip` [m, page] that is not writing the stroke: the nearest point on the whole stroke,
+  /// without effect on its progress and without an attraction factor.
   StrokeContact nearest(const Point& tip, const StrokeOptions& options) const noexcept;
 
-  /// The place at an arc length from the start [m], which is clamped to the stroke (NaN counts as 0). At a corner it is
-  /// the end of the element before. Does not allocate.
+  /// The place at an arc length from the start [m], clamped to the stroke (NaN counts as 0). At a corner it is the end
+  /// of the element before. Does not allocate.
   StrokePlace at(double arc) const noexcept;
 
   /// First point of the stroke [m, page].
@@ -77,7 +77,7 @@ class ActiveStroke {
   int element_count() const noexcept { return static_cast<int>(parts_.size()); }
 
  private:
-  /// From one feature point to the next.
+  /// The stroke from one feature point to the next.
   struct Part {
     StrokeElement element;
     FeaturePlane end;
@@ -93,7 +93,7 @@ class ActiveStroke {
 
   std::vector<Part> parts_;
   double em_ = 0.0;                  ///< [m]
-  Point misplaced_ = Point::Zero();  ///< offset from the start at which the stroke was begun [m]
+  Point start_offset_ = Point::Zero();  ///< from the start of the stroke to where the pen began [m]
   int active_ = 0;                   ///< element being written; element_count() once finished
   double arc_ = 0.0;                 ///< arc length of the last closest point, within the active element
   double parameter_ = 0.0;           ///< of the last closest point

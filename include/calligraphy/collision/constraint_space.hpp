@@ -6,11 +6,11 @@
 
 namespace calligraphy {
 
-/// A tube around a stroke element, within which it attracts the pen, unless the rules are printed ones (Rules).
+/// A tube around a stroke element, within which the element attracts the pen. Unused under the printed rules (Rules).
 struct ConstraintSpace {
   double radius = 0.3;  ///< distance from the stroke beyond which it does not attract the pen [em]
-  /// Width of the edge of the tube in which the force fades out, at most `radius`; a narrow one lets it drop steeply,
-  /// which is a negative stiffness [em].
+  /// Width of the edge of the tube in which the force fades out, at most `radius` [em]. A narrow edge makes it drop
+  /// steeply, which amounts to a negative stiffness.
   double fade_width = 0.2;
 };
 

@@ -10,7 +10,7 @@ namespace calligraphy {
 /// On a line or a point every method returns the foot of the perpendicular, clamped to the range, and certifies it.
 enum class NearestPointMethod {
   exact,    ///< the global nearest point, certified by the signs of the slope of the squared distance
-  tracked,  ///< the same point, found from the last one: for a query that moves little from call to call
+  tracked,  ///< the same point, searched from the last one: for queries that move little from call to call
   sampled,  ///< the best of some samples, refined: fast, but wrong where another branch is nearly as near
   wang2006  ///< subdivision as printed in sec. 4.3.2, ties to the nearer midpoint; misses branches: docs/wang2006.md
 };
@@ -18,9 +18,10 @@ enum class NearestPointMethod {
 /// "exact", "tracked", "sampled", "wang2006".
 const char* to_string(NearestPointMethod method) noexcept;
 
-/// Method and settings of a nearest point.
+/// Method and settings of a nearest-point query.
 struct NearestPointOptions {
-  NearestPointMethod method = NearestPointMethod::exact;  ///< how it is found; the other options serve some of them
+  NearestPointMethod method =
+      NearestPointMethod::exact;  ///< the search method; each other option names those it applies to
   /// exact, tracked: error of the point; wang2006: epsilon. Both relative to the size of the element, in (0, 1]. A
   /// value of 0 or less requests more than rounding allows: the result may then be only approximate.
   double tolerance = 1e-9;
@@ -28,7 +29,7 @@ struct NearestPointOptions {
   int refinements = 2;  ///< sampled: steps of Halley's method, clamped to [0, 8]
 };
 
-/// For set-up: rejects what nearest_point() would clamp. @throws ValueError naming the option and its value
+/// Rejects, at set-up, values that nearest_point() would clamp. @throws ValueError naming the option and its value
 void validate(const NearestPointOptions& options);
 
 /// Validity of a nearest point.
@@ -42,8 +43,8 @@ enum class NearestPointStatus {
 
 /// The point of an element that is nearest to a query, in the unit of its control points.
 struct NearestPoint {
-  double parameter = 0.0;         ///< of the point on the element, in [0, 1]
-  Point point = Point::Zero();    ///< on the curve (wang2006: the midpoint of two points of it)
+  double parameter = 0.0;         ///< of the point, in [0, 1]
+  Point point = Point::Zero();    ///< on the curve (wang2006: midpoint of two points on it)
   double distance = 0.0;          ///< from the query to `point`; infinite if one is not finite
   Point tangent = Point::Zero();  ///< unit vector in writing direction; zero for a point
   NearestPointStatus status = NearestPointStatus::approximate;  ///< how far the result may be trusted
@@ -52,23 +53,23 @@ struct NearestPoint {
   bool certified() const noexcept { return status == NearestPointStatus::certified; }
 };
 
-/// Part of an element. Values outside [0, 1] are clamped, NaN becomes 0 for `begin` and 1 for `end`, and an end before
-/// the beginning becomes the beginning.
+/// Part of an element. Values outside [0, 1] are clamped, NaN becomes 0 for `begin` and 1 for `end`, and an `end`
+/// before `begin` becomes `begin`.
 struct ParameterRange {
   double begin = 0.0;  ///< first parameter
   double end = 1.0;    ///< last parameter, included
 };
 
-/// Nearest point of the element within the range. Of equal distances the smaller parameter wins. `start` is for
-/// tracked: the parameter of the last result; it affects the time taken, never the branch found.
+/// Nearest point of the element within the range. Of equal distances the smaller parameter wins. `start`, used by
+/// tracked only, is the parameter of the last result; it affects the time taken, never the branch found.
 ///
 /// The result is the same to the last bit on every processor and in batches. Work is bounded: at most 256 intervals
 /// (exact, tracked), 64 bisections (wang2006).
 NearestPoint nearest_point(const StrokeElement& element, const Point& query, const NearestPointOptions& options = {},
                            const ParameterRange& range = {}, double start = 0.5) noexcept;
 
-/// Nearest points of many queries on one element: `results[i]` is that of `queries[i]`, the same as one by one but
-/// faster (exact). Where the spans differ in length, the excess of the longer one is ignored.
+/// Nearest points of many queries on one element: `results[i]` belongs to `queries[i]` and equals that of a single
+/// query; exact is faster this way. If the spans differ in length, the excess of the longer one is ignored.
 void nearest_points(const StrokeElement& element, std::span<const Point> queries, std::span<NearestPoint> results,
                     const NearestPointOptions& options = {}) noexcept;
 

@@ -1,19 +1,19 @@
-// Which rules hold where the paper's printed ones were revised.
+// The choice between the paper's printed rules and the revised ones.
 #pragma once
 
 namespace calligraphy {
 
-/// Six rules of the paper and what goes with them, all as revised or all as printed (docs/wang2006.md).
+/// Six rules of the paper and their details, all as revised or all as printed (docs/wang2006.md).
 enum class Rules {
   /// The force acts towards the stroke and out of the paper, the pen tip stays on the paper (Table 2), positions are
   /// mapped directly, a feature plane counts within the constraint space and near the feature point, the attraction
   /// factor is linear between feature points, and the constraint space is a tube (ConstraintSpace). The nearest point
-  /// is searched near the last one.
+  /// is searched for near the last one.
   revised,
   /// The pen tip is at the device, eq. (5); positions are integrated from velocities, eq. (3); a feature plane counts
   /// anywhere, eq. (6); the attraction factor is that of the last feature point; the constraint space is the half disc
-  /// of sec. 4.3.1, whatever ConstraintSpace says. The nearest point is searched on the whole element, and contact and
-  /// box have no hysteresis. The force acts towards the stroke and out of the paper.
+  /// of sec. 4.3.1, whatever ConstraintSpace says. The nearest point is searched for on the whole element, and contact
+  /// and box have no hysteresis. The force acts towards the stroke and out of the paper.
   wang2006
 };
 

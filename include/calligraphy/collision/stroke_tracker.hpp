@@ -11,39 +11,39 @@ namespace calligraphy {
 
 /// A point on a stroke.
 struct StrokePoint {
-  int element = 0;       ///< index of the element that it lies on
+  int element = 0;       ///< index of its element
   NearestPoint closest;  ///< on that element
 };
 
-/// Finds the nearest point of the whole stroke for each position of a pen, certified, and fast where the pen moves
-/// little: the element of the last result starts from the last parameter, and the others are skipped until the pen has
-/// travelled far enough to be as near to them. Of equal distances the earlier element wins.
+/// Finds the certified nearest point of the whole stroke for each position of a pen, fast as long as the pen moves
+/// little: the search on the last nearest element starts from its last parameter, and the other elements are skipped
+/// until the pen has travelled far enough to be as near to them. Of equal distances the earlier element wins.
 class StrokeTracker {
  public:
-  /// Keeps a view of the elements, of the first 5 if there are more. `tolerance` is as in NearestPointOptions.
+  /// Keeps a view of the elements, at most the first 5. `tolerance` is as in NearestPointOptions.
   /// @throws ValueError naming the tolerance unless it is above 0 and at most 1
   explicit StrokeTracker(std::span<const StrokeElement> elements, double tolerance = 1e-9);
   StrokeTracker(std::vector<StrokeElement>&&, double = 0.0) = delete;  // would dangle before the first update
 
-  /// Nearest point of the whole stroke to the next position of the pen. For a query that is not finite, returns the
-  /// start of the element that was nearest last, with status not_finite, and does not remember the query. For a stroke
-  /// without elements, always returns the origin with status not_finite.
+  /// Nearest point of the whole stroke to the next position of the pen. If the query is not finite, returns the start
+  /// of the last nearest element with status not_finite and does not remember the query. For a stroke without elements,
+  /// always returns the origin with status not_finite.
   StrokePoint update(const Point& query) noexcept;
 
  private:
-  /// An element as it was last queried.
-  struct Sighting {
+  /// The last query of an element.
+  struct LastQuery {
     Point query = Point::Zero();
     double clearance = 0.0;  ///< the distance, minus the possible rounding error
     double parameter = 0.5;
     double step = 0.0;  ///< last change of the parameter
   };
 
-  NearestPoint look(int element, const Point& query) noexcept;
+  NearestPoint find_on(int element, const Point& query) noexcept;
 
   std::span<const StrokeElement> elements_;
   NearestPointOptions options_;
-  std::array<Sighting, max_elements_per_stroke> sightings_ = {};
+  std::array<LastQuery, max_elements_per_stroke> last_queries_ = {};
   int last_ = 0;
 };
 

@@ -12,8 +12,8 @@ namespace calligraphy {
 
 /// Bernstein ordinates of g(t) = (B(t) - q) . B'(t), half the slope of the squared distance to a query q. They are
 /// affine in q: g_i = x_i q_x + y_i q_y + constant_i, with q relative to the curve's origin and size. Their signs bound
-/// the number of nearest points and locate them. Single precision: a sign that rounding could flip is not used. Stored
-/// in the order in which SIMD registers load them.
+/// the number of nearest points and locate them. In single precision: signs that rounding could flip are not used.
+/// Stored in the order in which SIMD registers load them.
 template <std::size_t Count>
 struct SlopeOrdinates {
   alignas(16) std::array<float, Count> x = {}, y = {}, constant = {};
@@ -32,15 +32,15 @@ struct CurveElement {
   static constexpr std::size_t max_ordinates = 48;
 
   int degree = 2;
-  int cells = 8;                 ///< number of equal parts of [0, 1] on which `ordinates` are given
+  int cells = 8;                 ///< number of equal parts of [0, 1], each with its own `ordinates`
   double size = 0.0;             ///< diagonal of the bounding box of the control points [m]
   double per_size = 0.0;         ///< 1 / size
-  double min_slope = 0.0;        ///< of g; below it Newton's method is not trusted
+  double min_slope = 0.0;        ///< slope of g below which Newton's method is not trusted
   Point origin = Point::Zero();  ///< first control point
   std::array<Point, max_curve_degree> coefficients = {};          ///< c_1 to c_n
   std::array<double, 2 * max_curve_degree> slope_of_square = {};  ///< of (B - origin) . B', by powers of t
   SlopeOrdinates<whole_ordinates> whole;                          ///< of the whole curve
-  SlopeOrdinates<max_ordinates> ordinates;         ///< of its cells; neighbours share the one between them
+  SlopeOrdinates<max_ordinates> ordinates;                        ///< of the cells; adjacent ones share an ordinate
   std::array<double, arc_intervals + 1> arc = {};  ///< arc length from 0 to i / 32 [m]
 
   Point point(double t) const noexcept;
@@ -48,18 +48,18 @@ struct CurveElement {
   Point derivative(double t) const noexcept { return size * derivative_per_size(t); }
   /// dB/dt divided by the size [1]
   Point derivative_per_size(double t) const noexcept;
-  /// Unit tangent in writing direction, also where dB/dt vanishes.
+  /// Unit tangent in writing direction, even where dB/dt vanishes.
   Point tangent(double t) const noexcept;
   /// Positive where the curve bends to the left; 0 where dB/dt vanishes [1/m].
   double curvature(double t) const noexcept;
-  /// Arc length from 0 to t, accurate to 3e-3 of the size (1e-4 on typical strokes); t is clamped to [0, 1], NaN counts
+  /// Arc length from 0 to t, accurate to 3e-3 of the size (1e-4 on typical strokes); t is clamped to [0, 1]; NaN counts
   /// as 0 [m].
   double arc_length(double t) const noexcept;
   /// Parameter at an arc length in (0, length); the inverse of arc_length.
   double parameter_at(double arc_length) const noexcept;
 };
 
-/// Prepares 3 to 5 control points that are finite and not all equal, which prepare_element checks. Does not allocate.
+/// Prepares 3 to 5 control points, finite and not all equal as checked by prepare_element. Does not allocate.
 CurveElement prepare_curve(std::span<const Point> control_points) noexcept;
 
 }  // namespace calligraphy
