@@ -34,8 +34,8 @@ class PlainLocale {
   locale_t before_;
 };
 
-/// The leading characters that a decimal number may contain. strtod would also accept leading white space, a plus sign
-/// and hexadecimal digits.
+/// The leading part that can be a decimal number; strtod would accept white space, a plus sign and hexadecimal digits,
+/// too.
 inline std::string_view decimal(std::string_view text) {
   const std::size_t sign = !text.empty() && text[0] == '-' ? 1 : 0;
   constexpr std::string_view first = "0123456789.iInN";

@@ -94,8 +94,7 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
-/// Whether the path is a pipe or a character device, even through a link whose target is no path, such as /dev/fd/63 in
-/// a shell's >(command).
+/// A pipe or a character device, even behind a link whose target is no path, such as /dev/fd/63 of >(command).
 bool is_stream(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);

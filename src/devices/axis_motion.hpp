@@ -18,8 +18,8 @@ struct AxisLoad {
   double dry_friction = 0.0;     ///< Coulomb friction: opposes motion, or holds the mass up to this force [N]
 };
 
-/// Sliding phases that one call computes exactly; no step of a servo loop contains more. Beyond that the axis stays at
-/// its last stop, so the work is bounded for any step.
+/// Maximum number of sliding phases that one call computes exactly, more than any step of a servo loop contains. Beyond
+/// it the axis stays at its last stop, so the work is bounded for any step.
 inline constexpr int max_phases = 256;
 
 /// Exact motion over `seconds`: m x'' = force + k (target(t) - x) - d x' - dry friction. While the velocity keeps its

@@ -1,4 +1,4 @@
-// Only what is async-signal-safe is used in emergency_stop(): lock-free atomics, and the functions entered.
+// emergency_stop() uses only what is async-signal-safe: lock-free atomics and the registered functions.
 #include <calligraphy/devices/emergency_stop.hpp>
 
 #include <array>
@@ -19,8 +19,8 @@ namespace {
 struct Slot {
   std::atomic<bool> taken = false;
   std::atomic<EmergencyStopEntry::Stop> stop = nullptr;
-  void* object = nullptr;  ///< constant while `stop` is not null, as is the next
-  long process = 0;        ///< that has the device open: a forked child that ends takes no force from its parent
+  void* object = nullptr;  ///< constant while `stop` is not null, like `process`
+  long process = 0;        ///< process that opened the device: a forked child that ends must not cut its parent's force
 };
 
 // Initialised before any constructor and never destroyed: a signal may arrive at any time.

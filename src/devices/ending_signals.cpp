@@ -31,7 +31,7 @@ void (*to_call)() noexcept = nullptr;
 
 namespace {
 
-/// Whether a program goes on at this signal by default. Every other one ends or stops it, whatever a system calls it.
+/// Whether a program continues at this signal by default. Every other signal, under whatever name, ends or stops it.
 bool is_harmless(int signal) noexcept {
 #if defined(SIGINFO) && !defined(SIGPWR)  // where both exist they are one, which ends a program
   if (signal == SIGINFO) return true;
@@ -39,8 +39,8 @@ bool is_harmless(int signal) noexcept {
   return signal == SIGCHLD || signal == SIGCONT || signal == SIGURG || signal == SIGWINCH;
 }
 
-/// Whether the program is to end or has crashed even where it handles this signal. What else it handles (SIGUSR1, a
-/// timer, a profiler's SIGPROF) is its own business, and it goes on.
+/// Whether this signal means that the program is to end or has crashed, even if it handles the signal. Other handled
+/// signals (SIGUSR1, a timer, a profiler's SIGPROF) are its own business, and it continues.
 bool ends_if_handled(int signal) noexcept {
   constexpr std::array signals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
   return std::find(signals.begin(), signals.end(), signal) != signals.end();
@@ -52,7 +52,7 @@ bool is(const struct sigaction& action, void (*handler)(int)) noexcept {
   return (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == handler;
 }
 
-/// Dispositions before ours, by number.
+/// Dispositions before ours, by signal number.
 std::array<struct sigaction, NSIG> before;
 
 extern "C" void calligraphy_at_ending_signal(int signal, siginfo_t* info, void* context);
@@ -62,8 +62,8 @@ void install(int signal, const struct sigaction& old) noexcept {
   ours.sa_sigaction = calligraphy_at_ending_signal;
   ours.sa_flags = (old.sa_flags | SA_SIGINFO | SA_ONSTACK) & ~static_cast<int>(SA_RESETHAND);
   if (is(old, SIG_DFL)) {
-    ours.sa_flags |= SA_RESTART;        // a program that was only suspended has had no handler either
-    sigaddset(&ours.sa_mask, SIGTTOU);  // what restores the terminal from the background is not stopped midway
+    ours.sa_flags |= SA_RESTART;        // a program that was merely suspended had no handler either
+    sigaddset(&ours.sa_mask, SIGTTOU);  // restoring the terminal from the background must not be stopped midway
   }
   sigaction(signal, &ours, nullptr);
 }
@@ -74,8 +74,8 @@ void restore_default(int signal) noexcept {
   sigaction(signal, &action, nullptr);
 }
 
-/// An instruction that cannot be executed, as opposed to a signal that some process has sent, and to SIGTRAP and
-/// SIGSYS, whose instruction is over.
+/// Whether an instruction that cannot be executed raised the signal, as opposed to a signal sent by a process, and to
+/// SIGTRAP and SIGSYS, whose instruction is complete.
 bool is_own_fault(int signal, const siginfo_t& info) noexcept {
   return (signal == SIGSEGV || signal == SIGBUS || signal == SIGFPE || signal == SIGILL) && info.si_code > 0;
 }
@@ -88,7 +88,7 @@ void do_as_before(const struct sigaction& action, int signal, siginfo_t* info, v
     sigset_t blocked;
     sigemptyset(&blocked);
     sigaddset(&blocked, signal);
-    pthread_sigmask(SIG_UNBLOCK, &blocked, nullptr);  // the program is suspended here, and goes on from here
+    pthread_sigmask(SIG_UNBLOCK, &blocked, nullptr);  // the program is suspended here, and later continues from here
     install(signal, action);
   } else if (by_default) {
     // The instruction is executed again on return, so that a core dump shows where and why it failed; any other signal
@@ -113,7 +113,7 @@ extern "C" void calligraphy_at_ending_signal(int signal, siginfo_t* info, void* 
 void call_at_ending_signals(void (*action)() noexcept) noexcept {
   static const SignalStack stack;
   to_call = action;
-  for (int signal = 1; signal < NSIG; ++signal) {  // the system refuses SIGKILL, SIGSTOP and what its threads need
+  for (int signal = 1; signal < NSIG; ++signal) {  // the system refuses SIGKILL, SIGSTOP and those its threads need
     struct sigaction& old = before[static_cast<std::size_t>(signal)];
     if (is_harmless(signal) || sigaction(signal, nullptr, &old) != 0) continue;
     if (is(old, SIG_IGN)) continue;  // as nohup requires
@@ -140,7 +140,7 @@ SignalStack::~SignalStack() {
   if (sigaltstack(nullptr, &present) != 0 || present.ss_sp != memory_) return;
   stack_t off = {};
   off.ss_flags = SS_DISABLE;
-  off.ss_size = size;  // which macOS requires
+  off.ss_size = size;  // required by macOS
   sigaltstack(&off, nullptr);
 }
 

@@ -1,17 +1,16 @@
-// Operating-system services for a program that ends: signals, and what may be done while one is handled.
+// Operating-system services for a program that ends: signals, and functions that are safe in their handlers.
 #pragma once
 
 #include <cstddef>
 
 namespace calligraphy {
 
-/// From here on calls `action` first at every signal that ends or stops a program by default, then does what the signal
-/// did before. A signal that is ignored stays ignored. One that is handled stays as it is, unless it means that the
-/// program ends or has crashed: SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT.
-/// Call it once.
+/// From now on, every signal that ends or stops a program by default first calls `action`, then has its previous
+/// effect. An ignored signal stays ignored. A handled one is left alone, unless it means that the program ends or has
+/// crashed: SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT. Call it once.
 void call_at_ending_signals(void (*action)() noexcept) noexcept;
 
-/// Number of this process, which a forked child has not inherited; 0 where processes are not forked. Async-signal-safe.
+/// Id of this process, different in a forked child; 0 where processes cannot fork. Async-signal-safe.
 long this_process() noexcept;
 
 /// Waits for about a millisecond. Async-signal-safe.

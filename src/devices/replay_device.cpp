@@ -28,11 +28,11 @@ std::vector<DeviceState> checked(std::vector<DeviceState> samples) {
   return samples;
 }
 
-/// Velocities that were not recorded, as a device that estimates them would have given them. An infinite one is a
+/// Adds velocities that were not recorded, as a device that estimates them would have done. An infinite one is a
 /// recorded fault.
 std::vector<DeviceState> with_velocities(std::vector<DeviceState> samples, double cutoff) {
   VelocityEstimator estimator(cutoff);
-  double last_time = 0.0;  // of the last sample that was fresh [s]
+  double last_time = 0.0;  // time of the last fresh sample [s]
   for (DeviceState& sample : samples) {
     const bool repeated = sample.status == DeviceStatus::stale;
     const bool usable = sample.status == DeviceStatus::ok || sample.status == DeviceStatus::warm_motors;

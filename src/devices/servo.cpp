@@ -25,12 +25,11 @@ std::uint64_t with_fault(std::uint64_t status, DeviceFault fault) noexcept {
 }
 
 ServoOptions checked(ServoOptions options, const HapticDevice& device, const ForceLaw& law) {
-  const bool is_asked_for = options.rate != 0.0;
-  if (!is_asked_for) options.rate = device.capabilities().update_rate;
+  const bool is_given = options.rate != 0.0;
+  if (!is_given) options.rate = device.capabilities().update_rate;
   if (law.rate > 0.0 && law.rate != options.rate) {
-    throw ValueError("servo loop: rate = " + number_text(options.rate) + " Hz" +
-                     (is_asked_for ? "" : ", the device's") + ", but the force law is made for " +
-                     number_text(law.rate) + " Hz");
+    throw ValueError("servo loop: rate = " + number_text(options.rate) + " Hz" + (is_given ? "" : ", the device's") +
+                     ", but the force law is made for " + number_text(law.rate) + " Hz");
   }
   require_within("servo loop: rate", options.rate, "Hz", 1.0, 1e5);
   require(options.timeout >= 2.0 / options.rate && options.timeout <= 1.0, "servo loop: timeout", options.timeout, "s",
@@ -60,7 +59,7 @@ DeviceFault unnamed_fault(DeviceStatus status) noexcept {
 }
 
 /// The servo whose force law this thread is executing.
-thread_local const Servo* asking = nullptr;
+thread_local const Servo* servo_in_law = nullptr;
 
 }  // namespace
 
@@ -90,7 +89,7 @@ Servo::Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options)
 }
 
 void Servo::step(double now) noexcept {
-  // Decaying filters in the force law end in denormal numbers, whichever thread calls.
+  // Decaying filters in the force law end in denormal numbers, whichever thread calls it.
   const FlushDenormals flush;
   std::uint64_t owner = owner_.load(std::memory_order_acquire);
   if (!take(owner)) {
@@ -100,34 +99,34 @@ void Servo::step(double now) noexcept {
   const double period = 1.0 / options_.rate;
   const double begun = options_.work_clock();
   const double elapsed = elapsed_since_last_tick(now);
-  // The watchdog has seen to the time before: what it left of its ramp goes on by one period.
-  const bool watched = std::exchange(watchdog_fell_, false);
+  // The watchdog has covered the time before: the rest of its ramp continues by one period.
+  const bool watched = std::exchange(watchdog_ramped_, false);
   const double unguarded = watched ? std::min(elapsed, period) : elapsed;
-  since_asked_ += elapsed;
+  since_law_call_ += elapsed;
   DeviceState sample = device_.read();
   device_status_ = sample.status;
   const bool released = released_.load(std::memory_order_relaxed);
-  DeviceFault fault = judge(sample, elapsed, watched);
+  DeviceFault fault = detect_fault(sample, elapsed, watched);
   if (emergency_stopped()) fault = DeviceFault::emergency_stop;
   complete(sample, fault, elapsed);
 
-  double settling = since_asked_;
+  double settling = since_law_call_;
   if (fault == DeviceFault::none && !released && sample.status != DeviceStatus::stale) {
-    since_asked_ = settling_ = 0.0;
+    since_law_call_ = settling_ = 0.0;
     watchdog_wrote_ = false;
     hand_over(owner, Owner::law);
     Eigen::Vector3d force;
-    const double asked = options_.work_clock();
-    const bool answered = ask(sample, force);
-    const double answer_time = options_.work_clock() - asked;
+    const double law_begun = options_.work_clock();
+    const bool succeeded = call_law(sample, force);
+    const double law_time = options_.work_clock() - law_begun;
     if (!hand_over(owner, Owner::tick)) {  // the watchdog has taken over the device
       idle_ticks_.fetch_add(1, std::memory_order_relaxed);
       return;
     }
-    settling = answer_time;
-    if (!answered) {
+    settling = law_time;
+    if (!succeeded) {
       fault = DeviceFault::bad_force;
-    } else if (answer_time > options_.timeout) {
+    } else if (law_time > options_.timeout) {
       fault = DeviceFault::slow_force_law;
     } else {
       guard_.pass(force, std::min(elapsed, period));  // a late tick ramps up by one period only
@@ -155,13 +154,13 @@ void Servo::step(double now) noexcept {
 double Servo::elapsed_since_last_tick(double now) noexcept {
   const double period = 1.0 / options_.rate;
   if (!std::isfinite(now)) {
-    increment(standing_);
+    increment(stalled_);
     return period;
   }
   const double elapsed = now - std::exchange(last_time_, now);
   if (!std::exchange(has_time_, true)) return period;
   if (!(elapsed > 0.0)) {
-    increment(standing_);
+    increment(stalled_);
     return period;
   }
   periods_.add(elapsed);
@@ -170,9 +169,9 @@ double Servo::elapsed_since_last_tick(double now) noexcept {
   return elapsed;
 }
 
-DeviceFault Servo::judge(const DeviceState& sample, double elapsed, bool watched) noexcept {
-  // While the force is zero a gap is harmless, and the fault that caused the ramp-down stays reported. So it does while
-  // the watchdog's ramp-down is unfinished.
+DeviceFault Servo::detect_fault(const DeviceState& sample, double elapsed, bool watched) noexcept {
+  // While the force is zero a gap is harmless, and the fault that caused the ramp-down stays reported. The same holds
+  // while the watchdog's ramp-down is unfinished.
   const bool gap = elapsed > options_.timeout && guard_.phase() != ServoPhase::zero && !watched;
   if (sample.status == DeviceStatus::stale) {
     increment(stale_);
@@ -184,7 +183,7 @@ DeviceFault Servo::judge(const DeviceState& sample, double elapsed, bool watched
   switch (sample.status) {
     case DeviceStatus::ok:
     case DeviceStatus::warm_motors:
-      // NaN is valid: a velocity that the device does not measure, which is estimated. Infinity is not.
+      // A velocity of NaN is valid: the device does not measure it, and it is estimated. Infinity is not.
       if (!sample.position.allFinite() || sample.velocity.array().isInf().any()) return DeviceFault::corrupted_frame;
       break;
     case DeviceStatus::stale:
@@ -196,10 +195,10 @@ DeviceFault Servo::judge(const DeviceState& sample, double elapsed, bool watched
   return gap ? DeviceFault::late_clock : DeviceFault::none;
 }
 
-/// Fills in what the device does not say.
+/// Fills in what the device does not report.
 void Servo::complete(DeviceState& sample, DeviceFault fault, double elapsed) noexcept {
   if (!sample.force.allFinite()) sample.force = guard_.force();
-  sample.force_settling = watchdog_wrote_ ? since_asked_ - steady_for_.load(std::memory_order_relaxed) : settling_;
+  sample.force_settling = watchdog_wrote_ ? since_law_call_ - steady_for_.load(std::memory_order_relaxed) : settling_;
   since_estimate_ += elapsed;
   if (fault != DeviceFault::none || elapsed > options_.timeout) velocity_.restart();
   const bool fresh = fault == DeviceFault::none && sample.status != DeviceStatus::stale;
@@ -208,23 +207,23 @@ void Servo::complete(DeviceState& sample, DeviceFault fault, double elapsed) noe
   sample.velocity_estimated = true;
 }
 
-bool Servo::ask(const DeviceState& sample, Eigen::Vector3d& force) noexcept {
-  const Servo* const outer = std::exchange(asking, this);  // a force law may step another servo
-  bool answered = true;
+bool Servo::call_law(const DeviceState& sample, Eigen::Vector3d& force) noexcept {
+  const Servo* const outer = std::exchange(servo_in_law, this);  // a force law may step another servo
+  bool succeeded = true;
   try {
     force = law_(sample);
   } catch (...) {
-    answered = false;
+    succeeded = false;
   }
-  asking = outer;
-  if (!answered) return false;
+  servo_in_law = outer;
+  if (!succeeded) return false;
   const double norm = force.norm();
   if (!std::isfinite(norm)) return false;
   if (norm > peak_force_) force *= peak_force_ / norm;
   return true;
 }
 
-bool Servo::in_law() const noexcept { return asking == this; }
+bool Servo::in_law() const noexcept { return servo_in_law == this; }
 
 void Servo::supervise(double now) noexcept {
   const double period = 1.0 / options_.rate;
@@ -236,7 +235,7 @@ void Servo::supervise(double now) noexcept {
   steady_for_.store(steady_for_.load(std::memory_order_relaxed) + elapsed, std::memory_order_relaxed);
   std::uint64_t owner = owner_.load(std::memory_order_acquire);
   if (owner_of(owner) == Owner::ramp) {
-    if (hand_over(owner, Owner::watchdog)) let_fall(owner, elapsed);
+    if (hand_over(owner, Owner::watchdog)) continue_ramp_down(owner, elapsed);
     return;
   }
   if (owner != watched_owner_) {
@@ -245,15 +244,15 @@ void Servo::supervise(double now) noexcept {
     return;
   }
   unchanged_for_ += elapsed;
-  if (unchanged_for_ <= options_.timeout || owner == dealt_with_) return;
+  if (unchanged_for_ <= options_.timeout || owner == handled_owner_) return;
 
-  dealt_with_ = owner;
+  handled_owner_ = owner;
   const Owner who = owner_of(owner);
   if (who == Owner::tick) {
     // Inside read() or write(): nothing else may touch the device.
     count_fault(DeviceFault::timed_out);
-    std::uint64_t told = status_.load(std::memory_order_relaxed);
-    status_.compare_exchange_strong(told, with_fault(told, DeviceFault::timed_out), std::memory_order_relaxed);
+    std::uint64_t packed = status_.load(std::memory_order_relaxed);
+    status_.compare_exchange_strong(packed, with_fault(packed, DeviceFault::timed_out), std::memory_order_relaxed);
     return;
   }
   if (!hand_over(owner, Owner::watchdog)) return;  // the tick has just continued
@@ -264,13 +263,13 @@ void Servo::supervise(double now) noexcept {
   reason_ = who == Owner::law ? DeviceFault::slow_force_law : DeviceFault::late_clock;
   watchdog_takeovers_.fetch_add(1, std::memory_order_relaxed);
   count_fault(reason_);
-  let_fall(owner, std::min(elapsed, period));
+  continue_ramp_down(owner, std::min(elapsed, period));
 }
 
 /// The watchdog's tick while it owns the device: the same ramp-down as the servo's.
-void Servo::let_fall(std::uint64_t owner, double elapsed) noexcept {
+void Servo::continue_ramp_down(std::uint64_t owner, double elapsed) noexcept {
   guard_.fall(reason_, elapsed, 1.0 / options_.rate);
-  watchdog_fell_ = true;
+  watchdog_ramped_ = true;
   if (write_force()) {
     watchdog_wrote_ = true;
     steady_for_.store(0.0, std::memory_order_relaxed);
@@ -283,8 +282,8 @@ void Servo::let_fall(std::uint64_t owner, double elapsed) noexcept {
   }
 }
 
-/// The only place that writes a force, and whether it is another one than before. It looks at the emergency stop again
-/// afterwards, which may have happened in between.
+/// The only place that writes a force; returns whether it differs from the last one. Checks the emergency stop again
+/// afterwards, because it may have happened in between.
 bool Servo::write_force() noexcept {
   bool stopped = false;
   do {
@@ -298,7 +297,7 @@ bool Servo::write_force() noexcept {
 
 void Servo::give_back(std::uint64_t owner) noexcept {
   hand_over(owner, Owner::nobody);
-  watched_owner_ = dealt_with_ = owner;  // no further takeover until a tick arrives
+  watched_owner_ = handled_owner_ = owner;  // no further takeover until a tick arrives
 }
 
 void Servo::reset() noexcept {
@@ -311,16 +310,16 @@ void Servo::reset() noexcept {
   last_fault_ = reason_ = DeviceFault::none;
   has_time_ = watch_has_time_ = false;
   written_.setZero();
-  watchdog_fell_ = watchdog_wrote_ = false;
-  stale_for_ = unchanged_for_ = since_asked_ = settling_ = 0.0;
+  watchdog_ramped_ = watchdog_wrote_ = false;
+  stale_for_ = unchanged_for_ = since_law_call_ = settling_ = 0.0;
   velocity_.restart();
-  watched_owner_ = dealt_with_ = 0;
+  watched_owner_ = handled_owner_ = 0;
 }
 
-/// Takes the device for a tick: from nobody, or from a watchdog that has left its ramp-down alone since the last tick.
+/// Takes the device for a tick: from nobody, or from a watchdog that left its ramp-down alone since the last tick.
 bool Servo::take(std::uint64_t& owner) noexcept {
   const Owner who = owner_of(owner);
-  const bool left = who == Owner::ramp && passed_over_.exchange(owner, std::memory_order_relaxed) == owner;
+  const bool left = who == Owner::ramp && seen_ramp_.exchange(owner, std::memory_order_relaxed) == owner;
   return (who == Owner::nobody || left) && hand_over(owner, Owner::tick);
 }
 
@@ -364,7 +363,7 @@ ServoStatistics Servo::statistics() const noexcept {
   result.ticks = ticks_.load(std::memory_order_relaxed);
   result.missed_deadlines = missed_.load(std::memory_order_relaxed);
   result.stale_samples = stale_.load(std::memory_order_relaxed);
-  result.stalled_clock = standing_.load(std::memory_order_relaxed);
+  result.stalled_clock = stalled_.load(std::memory_order_relaxed);
   result.watchdog_takeovers = watchdog_takeovers_.load(std::memory_order_relaxed);
   result.idle_ticks = idle_ticks_.load(std::memory_order_relaxed);
   for (std::size_t i = 0; i < faults_.size(); ++i) result.faults[i] = faults_[i].load(std::memory_order_relaxed);

@@ -25,12 +25,12 @@ ServoThreadOptions for_watchdog(ServoThreadOptions options) {
   return options;
 }
 
-/// Waits for the zero that the next tick writes, or the watchdog if that tick does not come. Whatever force the loop
-/// was about to write has been written by then. Async-signal-safe.
+/// Waits until the next tick, or the watchdog if that tick does not come, has written zero. Any force that the loop was
+/// about to write has been written by then. Async-signal-safe.
 void wait_for_zero(void* servo) noexcept {
   constexpr int max_wait = 100;  // [ms]
   for (int i = 0; i < max_wait && !static_cast<const Servo*>(servo)->halted(); ++i) pause_in_signal_handler();
-  pause_in_signal_handler();  // a vendor's frame passes the force on when the tick has returned
+  pause_in_signal_handler();  // a vendor's frame passes the force on after the tick has returned
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ std::vector<std::string> ServoLoop::start(
   const bool own = clock_ == nullptr;
   if (own) clock_ = &thread_;
   running_ = true;  // before the first tick, whose force law may query it
-  told_ = tell == nullptr;
+  warned_ = tell == nullptr;
   std::vector<std::string> warnings;
   const auto add = [&warnings](const std::vector<std::string>& more) {  // without duplicates
     for (const std::string& warning : more) {
@@ -72,7 +72,7 @@ std::vector<std::string> ServoLoop::start(
     add(watchdog_.warnings());
     if (own) {
       thread_.start([this](double now) {
-        if (told_) servo_.step(now);
+        if (warned_) servo_.step(now);
       });
       add(thread_.warnings());
     }
@@ -86,7 +86,7 @@ std::vector<std::string> ServoLoop::start(
     entry_.reset();
     throw;
   }
-  told_ = true;
+  warned_ = true;
   return warnings;
 }
 

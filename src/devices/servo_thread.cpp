@@ -80,7 +80,7 @@ void ServoThread::stop() noexcept {
 }
 
 void ServoThread::run(const std::function<void(double now)>& tick) noexcept {
-  const SignalStack stack;  // a force law that recurses without end must not keep its force
+  const SignalStack stack;  // endless recursion in a force law must not leave the force on
   const double period = 1.0 / rate_;
   double deadline = monotonic_seconds();
   while (!stopping_.load(std::memory_order_relaxed)) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int max_delay = 100'000;  // 100 s at 1 kHz; more is a mistake and would only use memory
 constexpr int max_late = 1000;      // beyond the delay
-constexpr double same_time = 1e-9;  // sums of ticks are that close to the times of a schedule [s]
+constexpr double same_time = 1e-9;  // sums of ticks come this close to the times of a schedule [s]
 
 const Capabilities& checked(const Capabilities& device) {
   validate(device);
@@ -59,7 +59,7 @@ void apply(const SimulatedFault& fault, DeviceState& state) noexcept {
       state.fault = fault.fault;
       break;
     case SimulatedFaultKind::late:
-      break;  // by the choice of the sample
+      break;  // the choice of the sample makes it late
     case SimulatedFaultKind::garbage:
       state.position.setConstant(std::numeric_limits<double>::quiet_NaN());
       state.velocity.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -92,7 +92,7 @@ void SimulatedDevice::schedule(std::vector<SimulatedFault> faults) {
   }
   const std::size_t needed = static_cast<std::size_t>(device_.sample_delay) + latest + 1;
   if (needed > samples_.size()) {
-    // In order of age, with the oldest repeated in front, as if the device had been at rest before.
+    // Sorts by age and repeats the oldest in front, as if the device had been at rest before.
     std::rotate(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(newest_ + 1), samples_.end());
     samples_.insert(samples_.begin(), needed - samples_.size(), DeviceState(samples_.front()));
     newest_ = samples_.size() - 1;

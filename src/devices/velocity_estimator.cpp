@@ -18,7 +18,7 @@ void VelocityEstimator::learn_share() noexcept {
 
 void VelocityEstimator::restart() noexcept {
   has_position_ = false;
-  share_ = share_time_ = 0.0;  // the same bits again, whatever has been before
+  share_ = share_time_ = 0.0;  // the same bits as a new estimator, whatever came before
   since_position_ = 0.0;
   velocity_.setZero();
 }

@@ -34,8 +34,7 @@ bool is_sound(const CoordinateEncoding& coding) noexcept {
   return coding.steps_per_em <= max_steps_per_em && is_width(coding.x_bits) && is_width(coding.y_bits);
 }
 
-/// Reads a number of up to 32 bits, seven per byte, lowest first. Returns false if it ends beyond `end` or is too
-/// large.
+/// Reads a number of up to 32 bits, seven per byte, lowest first. False if it ends beyond `end` or is too large.
 bool read_number(std::span<const std::byte> bytes, std::size_t& at, std::size_t end, std::uint32_t& number) noexcept {
   std::uint64_t value = 0;
   for (int shift = 0; shift < 35 && at < end; shift += 7) {

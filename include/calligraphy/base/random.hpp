@@ -17,8 +17,7 @@ class Random {
  public:
   /// Starts the sequence of a seed; no seed is better than another.
   explicit Random(std::uint64_t seed) : state_(seed) {}
-  /// Starts an independent sequence for each list of keys, so that draws for one do not depend on how many were taken
-  /// for another.
+  /// Starts an independent sequence for each list of keys: draws for one do not affect those for another.
   Random(std::uint64_t seed, std::initializer_list<int> keys);
 
   /// 64 random bits.

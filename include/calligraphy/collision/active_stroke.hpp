@@ -92,12 +92,12 @@ class ActiveStroke {
   bool passes(const Point& tip, const StrokeContact& contact, const StrokeOptions& options) const noexcept;
 
   std::vector<Part> parts_;
-  double em_ = 0.0;                  ///< [m]
+  double em_ = 0.0;                     ///< [m]
   Point start_offset_ = Point::Zero();  ///< from the start of the stroke to where the pen began [m]
-  int active_ = 0;                   ///< element being written; element_count() once finished
-  double arc_ = 0.0;                 ///< arc length of the last closest point, within the active element
-  double parameter_ = 0.0;           ///< of the last closest point
-  double furthest_ = 0.0;            ///< arc length from the start of the stroke
+  int active_ = 0;                      ///< element being written; element_count() once finished
+  double arc_ = 0.0;                    ///< arc length of the last closest point, within the active element
+  double parameter_ = 0.0;              ///< of the last closest point
+  double furthest_ = 0.0;               ///< arc length from the start of the stroke
 };
 
 }  // namespace calligraphy

@@ -20,8 +20,7 @@ const char* to_string(NearestPointMethod method) noexcept;
 
 /// Method and settings of a nearest-point query.
 struct NearestPointOptions {
-  NearestPointMethod method =
-      NearestPointMethod::exact;  ///< the search method; each other option names those it applies to
+  NearestPointMethod method = NearestPointMethod::exact;  ///< search method; each other option says which use it
   /// exact, tracked: error of the point; wang2006: epsilon. Both relative to the size of the element, in (0, 1]. A
   /// value of 0 or less requests more than rounding allows: the result may then be only approximate.
   double tolerance = 1e-9;

@@ -1,4 +1,4 @@
-// Description of a haptic device: its axes, its limits and its physical properties.
+// Description of a haptic device: axes, limits and physical properties.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@ struct DeviceAxes {
   bool z = true;           ///< translation along this device axis
   bool rotations = false;  ///< pen orientation, sensed as DeviceState::orientation
 
-  /// Whether x, y and z are all there, as the renderer and the simulation need them.
+  /// Whether x, y and z are all present, which the renderer and the simulation require.
   bool all_translations() const noexcept { return x && y && z; }
 };
 
 /// For example "x, y, z, rotations" or "none".
 std::string axes_text(const DeviceAxes& axes);
 
-/// How a device has DeviceState::velocity.
+/// Origin of DeviceState::velocity.
 enum class VelocitySource : std::uint8_t {
-  measured,  ///< true at the time of the sample: a tachometer, or an ideal device
-  estimated  ///< filtered differences of its quantised positions, as a VelocityEstimator gives them: late and in steps
+  measured,  ///< true at the time of the sample, from a tachometer or an ideal device
+  estimated  ///< filtered differences of quantised positions, as by a VelocityEstimator: late and in steps
 };
 
 /// "measured", "estimated".
@@ -36,7 +36,7 @@ const char* to_string(VelocitySource source) noexcept;
 struct Capabilities {
   std::string name;        ///< name of the built-in profile; may be empty
   std::string model;       ///< display name: "Phantom Omni"
-  bool simulated = false;  ///< nobody can be hurt: unstable stiffnesses may be tried (StiffnessCheck::off)
+  bool simulated = false;  ///< nobody can be hurt, so unstable stiffnesses may be tried (StiffnessCheck::off)
   DeviceAxes sensed;       ///< axes that read() measures
   DeviceAxes driven;       ///< axes along which write() exerts a force
   Eigen::Vector3d workspace = Eigen::Vector3d::Zero();  ///< extent along each device axis, centred on zero [m]
@@ -45,9 +45,9 @@ struct Capabilities {
   double usable_stiffness = 0.0;                        ///< maximum stiffness reported by users of the device [N/m]
   double force_step = 0.0;    ///< forces are rounded to multiples of it (DAC); 0: unknown, or not quantised [N]
   double encoder_step = 0.0;  ///< positions are rounded to multiples of it; 0: unknown, or not quantised [m]
-  VelocitySource velocity = VelocitySource::estimated;  ///< how it has the velocity of a sample
-  double velocity_cutoff = 50.0;  ///< cut-off frequency of the filter of an estimated velocity [Hz]
-  double update_rate = 1000.0;    ///< rate of its samples and of the servo loop [Hz]
+  VelocitySource velocity = VelocitySource::estimated;  ///< origin of the velocity of a sample
+  double velocity_cutoff = 50.0;  ///< cut-off frequency of the filter for an estimated velocity [Hz]
+  double update_rate = 1000.0;    ///< rate of the samples and the servo loop [Hz]
   double apparent_mass = 0.0;     ///< at the tip; 0: unknown [kg]
   double viscous_friction = 0.0;  ///< damping of the mechanism itself [N s/m]
   double coulomb_friction = 0.0;  ///< back-drive friction [N]

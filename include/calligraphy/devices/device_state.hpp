@@ -13,7 +13,7 @@ namespace calligraphy {
 enum class DeviceStatus : std::uint8_t {
   ok,                 ///< a fresh sample
   stale,              ///< the previous sample again: no new one has arrived
-  disconnected,       ///< the device is gone, or a recording has ended
+  disconnected,       ///< the device is gone, or the recording has ended
   warm_motors,        ///< the device limits its force to protect its motors
   needs_calibration,  ///< positions are not yet absolute
   fault               ///< the device cannot continue
@@ -22,13 +22,13 @@ enum class DeviceStatus : std::uint8_t {
 /// Display text: "ok", "needs calibration".
 const char* to_string(DeviceStatus status) noexcept;
 
-/// What the person who holds the device has to do about it: "needs calibration: put the pen ..."; empty: nothing.
+/// What the user has to do about it: "needs calibration: put the pen ..."; empty if nothing.
 const char* advice_text(DeviceStatus status) noexcept;
 
 /// Cause of a fault in a device, its link or its servo loop. Some are detected by the link, others by the codec, the
 /// device or the servo loop.
 enum class DeviceFault : std::uint8_t {
-  none,               ///< no fault, or its cause is not known
+  none,               ///< no fault, or a cause that is not known
   unplugged,          ///< no longer on the bus
   stalled,            ///< an endpoint refuses transfers
   timed_out,          ///< a transfer, or a call of the device, did not complete in time
@@ -73,18 +73,18 @@ struct PenOrientation {
 struct DeviceState {
   double time = 0.0;                                   ///< since the device was opened [s]
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< haptic interface point, device axes [m]
-  /// Of the haptic interface point, device axes [m/s]; NaN only if the device neither measures nor estimates it. A
-  /// force law never sees that: Servo fills it in.
+  /// Velocity of the haptic interface point, device axes [m/s]; NaN only if the device neither measures nor estimates
+  /// it. A force law never sees NaN: Servo estimates the velocity.
   Eigen::Vector3d velocity = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   bool velocity_estimated = false;  ///< from positions, by a VelocityEstimator or the vendor's filter: late and noisy
   /// The force at work when the sample is read, device axes [N]: the last one written, after every limit, guard and
-  /// ramp. NaN if the device does not say; Servo then fills in what it wrote.
+  /// ramp. NaN if the device does not report it; Servo then fills in the force it wrote.
   Eigen::Vector3d force = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  /// How long after the last sample that the force law was asked about a force other than `force` may have been at
-  /// work [s]. Servo fills it in; 0 also if nobody knows.
+  /// How long a force other than `force` may have been at work after the last sample passed to the force law [s].
+  /// Filled in by Servo; also 0 if unknown.
   double force_settling = 0.0;
   std::uint32_t buttons = 0;               ///< one bit per button
-  DeviceStatus status = DeviceStatus::ok;  ///< whether it is fresh and valid
+  DeviceStatus status = DeviceStatus::ok;  ///< whether the sample is fresh and valid
   DeviceFault fault = DeviceFault::none;   ///< the cause of a status other than ok, if known
   PenOrientation orientation;              ///< of the pen; NaN if the device does not sense rotations
 };
@@ -92,9 +92,9 @@ struct DeviceState {
 /// Impedance of the grip about the intended position, equal along all axes. Typical grips: soft (0.05, 1, 100), normal
 /// (0.1, 3, 300), firm (0.15, 5, 500).
 struct GripImpedance {
-  double mass = 0.1;         ///< that moves with the device [kg]
-  double damping = 3.0;      ///< against motion relative to the intended one [N s/m]
-  double stiffness = 300.0;  ///< of the spring towards the intended position [N/m]
+  double mass = 0.1;         ///< mass that moves with the device [kg]
+  double damping = 3.0;      ///< damping of motion relative to the intended one [N s/m]
+  double stiffness = 300.0;  ///< stiffness of the spring towards the intended position [N/m]
 };
 
 }  // namespace calligraphy

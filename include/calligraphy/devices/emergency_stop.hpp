@@ -10,21 +10,22 @@ class HapticDevice;
 /// Calls emergency_stop() when the program ends: at exit() and quick_exit(), at std::terminate() (an uncaught
 /// exception), and at every signal whose default action ends or stops it: Ctrl-C, Ctrl-Z and crashes, but also SIGPIPE,
 /// SIGALRM, SIGUSR1 or a real-time signal. The signal then ends or stops the program as before: exit codes and core
-/// dumps stay as they were. A signal that is ignored stays ignored. A handler installed before for SIGINT, SIGTERM,
-/// SIGHUP, SIGQUIT, SIGTSTP, SIGSEGV, SIGBUS, SIGFPE, SIGILL or SIGABRT is called after the stop; with a handler for
-/// any other signal the program goes on, and so does the force.
+/// dumps stay as they were. A signal that is ignored stays ignored. An earlier handler for SIGINT, SIGTERM, SIGHUP,
+/// SIGQUIT, SIGTSTP, SIGSEGV, SIGBUS, SIGFPE, SIGILL or SIGABRT is called after the stop; with a handler for any other
+/// signal the program goes on, and so does the force.
 ///
 /// Call it once, at the start of main() and after the program has installed its own handlers; further calls do nothing.
-/// A handler that is installed later replaces it and should call emergency_stop() itself. One that was installed with
-/// SA_RESETHAND is called once, as it asked: the second such signal ends the program by its default action, with the
-/// force on. Nothing can run at SIGKILL, SIGSTOP, _exit(), execve(), a power failure, or the stack overflow of a thread
-/// of your own that has not called sigaltstack(): only the device's own watchdog remains (HapticDevice::warnings()).
+/// A handler that is installed later replaces it and should call emergency_stop() itself. A handler installed with
+/// SA_RESETHAND is called once, as requested: the second such signal ends the program by its default action, with the
+/// force on. Nothing can run at SIGKILL, SIGSTOP, _exit(), execve(), a power failure, or a stack overflow in a thread
+/// of your own that has not called sigaltstack(): then only the device's own watchdog remains
+/// (HapticDevice::warnings()).
 void install_emergency_stop();
 
-/// Takes the force at once, without a ramp, from every device that has an entry (the built-in backends; your own by one
-/// line) and from every device behind a Servo, and keeps it at zero. A device that a program writes to by itself,
-/// without either, keeps its force. Returns when the devices have it: after a few milliseconds, at most 0.1 s more for
-/// each device or loop whose own thread does not answer. Async-signal-safe; callable from any thread.
+/// Sets the force to zero at once, without a ramp, on every device that has an entry (all built-in backends; one line
+/// for your own) and every device behind a Servo, and keeps it there. A device without either, which a program writes
+/// to directly, keeps its force. Returns once the devices have received it: after a few milliseconds, plus at most
+/// 0.1 s for each device or loop whose own thread does not answer. Async-signal-safe; callable from any thread.
 void emergency_stop() noexcept;
 
 /// Whether emergency_stop() was called and the force has not been permitted again.
@@ -33,17 +34,17 @@ bool emergency_stopped() noexcept;
 /// Permits forces again; a running servo loop ramps up from zero. Not for use in a signal handler.
 void clear_emergency_stop() noexcept;
 
-/// Enters an object into the table of what emergency_stop() stops, for as long as the entry lives. Constructing and
-/// removing it must not be done in a signal handler; both are thread-safe.
+/// Registers an object to be stopped by emergency_stop(), for as long as the entry lives. Constructing and removing it
+/// is thread-safe, but not allowed in a signal handler.
 class EmergencyStopEntry {
  public:
-  /// Takes the force from an object.
+  /// Sets the force of an object to zero.
   using Stop = void (*)(void* object) noexcept;
 
-  /// Entries at a time, in the whole program.
+  /// Maximum number of entries at a time, in the whole program.
   static constexpr std::size_t max_entries = 256;
 
-  /// Calls HapticDevice::cut_force(). Make it the last member of the device's class, so that it is removed first.
+  /// Will call HapticDevice::cut_force(). Make it the last member of the device's class, so that it is removed first.
   /// @throws DeviceError when there are `max_entries` already
   explicit EmergencyStopEntry(HapticDevice& device);
   /// `stop` must be async-signal-safe and return within 0.1 s. @throws as above
@@ -53,7 +54,7 @@ class EmergencyStopEntry {
   EmergencyStopEntry(const EmergencyStopEntry&) = delete;
   EmergencyStopEntry& operator=(const EmergencyStopEntry&) = delete;
 
-  /// Afterwards the object is not stopped any more; waits for an emergency stop that is under way in another thread.
+  /// Ends the registration, after waiting for an emergency stop that is under way in another thread.
   void remove() noexcept;
 
  private:

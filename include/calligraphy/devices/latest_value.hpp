@@ -1,4 +1,4 @@
-// The newest value of one thread for another, wait-free: values not read in time are overwritten.
+// Passes the newest value from one thread to another, wait-free. Values not read in time are overwritten.
 #pragma once
 
 #include <array>
@@ -16,13 +16,14 @@ class LatestValue {
                 "values are copied within the servo loop: use plain structs that own no resources");
 
  public:
-  /// Writing thread.
+  /// Replaces the value. Writing thread only.
   void publish(const Value& value) noexcept {
     slots_[written_] = value;
     written_ = waiting_.exchange(written_ | is_new, std::memory_order_acq_rel) & slot;
   }
 
-  /// The newest value. False, and `value` is untouched, when nothing was published since the last call. Reading thread.
+  /// Takes the newest value. Returns false, leaving `value` untouched, if nothing was published since the last call.
+  /// Reading thread only.
   bool take(Value& value) noexcept {
     if ((waiting_.load(std::memory_order_relaxed) & is_new) == 0) return false;
     read_ = waiting_.exchange(read_, std::memory_order_acq_rel) & slot;
@@ -33,11 +34,11 @@ class LatestValue {
  private:
   static constexpr std::uint32_t slot = 3, is_new = 4;
 
-  // Three slots: one is written, one is read, one waits between them.
+  // Three slots: one being written, one being read, and one waiting in between.
   std::array<Value, 3> slots_{};
-  std::uint32_t written_ = 0;                ///< of the writing thread
-  std::uint32_t read_ = 1;                   ///< of the reading thread
-  std::atomic<std::uint32_t> waiting_ = 2u;  ///< with is_new once a value was published
+  std::uint32_t written_ = 0;                ///< slot of the writing thread
+  std::uint32_t read_ = 1;                   ///< slot of the reading thread
+  std::atomic<std::uint32_t> waiting_ = 2u;  ///< contains is_new once a value was published
 };
 
 }  // namespace calligraphy

@@ -14,7 +14,7 @@ namespace calligraphy {
 /// How the simulated hand follows a pointer. By default it moves like the simulated writer's: 8 mm above the paper
 /// between strokes, 2.5 mm deep at half pressure.
 struct PointerOptions {
-  double rate = 0.0;             ///< rate at which read() is called, and update_rate then; 0: the profile's [Hz]
+  double rate = 0.0;             ///< rate at which read() is called, becomes update_rate; 0: the profile's [Hz]
   double smoothing_time = 0.03;  ///< lag of the intended position behind the pointer: smooths events that arrive 60 to
                                  ///< 120 times a second into a motion of continuous velocity [s]
   double max_speed = 0.5;        ///< speed limit of the intended position along the paper, also when the pointer jumps
@@ -30,7 +30,7 @@ struct PointerOptions {
 /// the pen there, not at the pointer. Mapping the pixels of a window to the paper is left to the caller.
 class PointerDevice final : public HapticDevice {
  public:
-  /// A simulated device, and the hand with this grip that the pointer moves.
+  /// Simulates this device, held by a hand with this grip that the pointer moves.
   /// @throws ValueError naming the value when the device, the grip or an option is invalid
   explicit PointerDevice(const Capabilities& device, const GripImpedance& grip = {},
                          const PointerOptions& options = {});

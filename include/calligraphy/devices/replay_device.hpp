@@ -12,7 +12,7 @@ namespace calligraphy {
 /// recorded (NaN) is estimated from the positions. Forces are stored and have no effect. close() ends playback.
 class ReplayDevice final : public HapticDevice {
  public:
-  /// Plays these samples back as a device with these capabilities.
+  /// Plays back the samples as a device with these capabilities.
   /// @throws ValueError when there are no samples, their times do not increase, or the velocity cut-off is not above 0
   ReplayDevice(std::vector<DeviceState> samples, Capabilities capabilities);
 

@@ -1,4 +1,4 @@
-// Wait-free single-producer, single-consumer queue that drops and counts what does not fit.
+// Wait-free single-producer, single-consumer queue that drops and counts values that do not fit.
 #pragma once
 
 #include <atomic>
@@ -51,7 +51,7 @@ class SampleQueue {
     return true;
   }
 
-  /// Number of values that it holds when full, a power of two.
+  /// Number of values in a full queue, a power of two.
   std::size_t capacity() const noexcept { return mask_ + 1; }
   /// Number of values dropped so far. Thread-safe.
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }

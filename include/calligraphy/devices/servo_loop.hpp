@@ -15,9 +15,8 @@ namespace calligraphy {
 
 /// Options of a real-time loop.
 struct ServoLoopOptions {
-  ServoOptions servo;  ///< rate and safety limits
-  /// Options of the loop's own thread. Unused if the device has its own clock.
-  ServoThreadOptions thread;
+  ServoOptions servo;         ///< rate and safety limits
+  ServoThreadOptions thread;  ///< options of the loop's own thread; unused if the device has its own clock
 };
 
 /// A servo, its clock and its watchdog. The clock is the device's own if it has one (`HapticDevice::clock()`),
@@ -33,14 +32,14 @@ class ServoLoop {
 
   /// Starts with zero force and ramps it up. Returns the privileges that the system refused, each with a remedy, and
   /// the device's own warnings. `tell`, if given, is called with them before the first tick reads the device, so that
-  /// a person knows them before the force; if it throws, the loop does not start.
+  /// the user knows them before feeling a force; if it throws, the loop does not start.
   /// @throws DeviceError when the clock cannot be started or after an emergency stop, ValueError when the loop is
   /// already running
   std::vector<std::string> start(const std::function<void(const std::vector<std::string>& warnings)>& tell = nullptr);
 
   /// Ramps the force down to zero, stops the clock and leaves the force at zero. Waits for a force law that has not
-  /// returned; the ramp does not wait for it. From within the force law, even before start() has returned, it begins
-  /// the ramp-down and returns; the loop ends when stop() is called from outside.
+  /// returned, but the ramp does not. From within the force law, even before start() has returned, it begins the
+  /// ramp-down and returns; the loop ends when stop() is called from outside.
   void stop() noexcept;
 
   /// True from the first tick until stop() is called from outside the force law. Thread-safe.
@@ -57,7 +56,7 @@ class ServoLoop {
   ServoThread watchdog_;
   ServoClock* clock_ = nullptr;  ///< null while stopped
   std::atomic<bool> running_ = false;
-  std::atomic<bool> told_ = false;  ///< the warnings; ticks of the loop's own thread do nothing before
+  std::atomic<bool> warned_ = false;  ///< `tell` has returned; until then, ticks of the loop's own thread do nothing
   std::optional<EmergencyStopEntry> entry_;  ///< while the clock runs
 };
 

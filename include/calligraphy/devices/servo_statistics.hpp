@@ -8,7 +8,7 @@
 
 namespace calligraphy {
 
-/// Durations as a histogram has counted them [s].
+/// Summary of the durations counted by a histogram [s].
 struct DurationSummary {
   std::uint64_t count = 0;  ///< number of durations
   double p50 = 0.0;         ///< median [s]
@@ -17,7 +17,7 @@ struct DurationSummary {
   double worst = 0.0;       ///< longest one, exact to a nanosecond [s]
 };
 
-/// What a servo loop has counted since it was constructed.
+/// Counts of a servo loop since its construction.
 struct ServoStatistics {
   DurationSummary period;                ///< from one tick to the next, as reported by the clock [s]
   DurationSummary work;                  ///< duration of a tick: read, force law, write [s]

@@ -10,10 +10,10 @@
 
 namespace calligraphy {
 
-/// Intended position and velocity of the pen. In device axes, unless what takes it says otherwise.
+/// Intended position and velocity of the pen, in device axes unless stated otherwise.
 struct Intention {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< where the hand means the pen to be [m]
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< at which that position moves on [m/s]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< where the hand intends the pen to be [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< velocity of the intended position [m/s]
 };
 
 /// A point mass held by a hand, in virtual time. During advance() the commanded force is held and the intended position
@@ -21,40 +21,41 @@ struct Intention {
 /// under Coulomb friction: the result does not depend on the step size.
 class SimulatedDevice final : public HapticDevice {
  public:
-  /// A device at rest at this position [m], held with this grip; by default nobody holds it.
+  /// A device at rest at this position [m], held with this grip; by default not held.
   /// @throws ValueError naming the value when the device or the grip is not physical, when the apparent mass is
   /// unknown, or when a translation is not sensed or not driven
   explicit SimulatedDevice(const Capabilities& device, const GripImpedance& grip = {0.0, 0.0, 0.0},
                            const Eigen::Vector3d& position = Eigen::Vector3d::Zero());
 
   const Capabilities& capabilities() const noexcept override { return device_; }
-  /// The sample taken `sample_delay` ticks ago. Its velocity is measured or estimated, as on the device: the true one at
-  /// that time, or one from the quantised positions of the samples, one per advance(). Its force is the one applied now.
+  /// The sample taken `sample_delay` ticks ago. Its velocity is measured or estimated, as on the device: the true one
+  /// at that time, or an estimate from the quantised positions of the samples, one per advance(). Its force is the one
+  /// applied now.
   DeviceState read() noexcept override;
   /// Applies the device's output_force() for this one. A force that is not finite counts as zero, as on every device;
-  /// refused_forces() counts them, so that a test of a force law can tell.
+  /// refused_forces() counts such forces for tests of force laws.
   void write(const Eigen::Vector3d& force) noexcept override;
   void close() noexcept override;
 
-  /// Sets the intended position, initially the start position. It moves on at its velocity with every advance(). Values
-  /// that are not finite are ignored.
+  /// Sets the intended position, initially the start position. Every advance() moves it at its velocity. Values that
+  /// are not finite are ignored.
   void set_intention(const Intention& intention) noexcept;
-  /// Sets the grip of the hand that holds the device; all zero: nobody holds it.
+  /// Sets the grip of the hand that holds the device; all zero: it is not held.
   /// @throws ValueError naming the value when the grip is not physical
   void set_grip(const GripImpedance& grip);
   /// Sets the pressed buttons, one bit for each; takes effect with the next advance().
   void set_buttons(std::uint32_t buttons) noexcept { buttons_ = buttons; }
 
-  /// Replaces the schedule of faults, by default empty. If several are active at once, the first applies. Allocates:
-  /// not for a running servo loop. @throws ValueError naming the fault and the value that is out of range
+  /// Replaces the schedule of faults, by default empty. If several are active at once, the first applies. Allocates, so
+  /// do not call it while a servo loop runs. @throws ValueError naming the fault and the value that is out of range
   void schedule(std::vector<SimulatedFault> faults);
 
-  /// Advances virtual time by `seconds` and takes a sample; by 0 it does nothing. One call follows at most 256 stops
-  /// along an axis; then the axis stays at rest until its end. @throws ValueError naming a time that is negative or not
-  /// finite
+  /// Advances virtual time by `seconds` and takes a sample; 0 does nothing. A call follows at most 256 stops along an
+  /// axis; after that the axis stays at rest until the call ends. @throws ValueError naming a time that is negative or
+  /// not finite
   void advance(double seconds);
 
-  /// Position, not quantised, of the haptic interface point [m].
+  /// Unquantised position of the haptic interface point [m].
   const Eigen::Vector3d& true_position() const noexcept { return position_; }
   /// Its velocity, neither quantised nor filtered [m/s].
   const Eigen::Vector3d& true_velocity() const noexcept { return velocity_; }
@@ -84,7 +85,7 @@ class SimulatedDevice final : public HapticDevice {
   std::vector<DeviceState> samples_;  ///< ring buffer, long enough for the sample delay and the latest fault
   std::size_t newest_ = 0;
   std::vector<SimulatedFault> faults_;
-  DeviceState last_read_;  ///< as it was before the current fault
+  DeviceState last_read_;  ///< the last read before the current fault
 };
 
 }  // namespace calligraphy

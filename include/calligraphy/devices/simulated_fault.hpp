@@ -10,16 +10,16 @@ namespace calligraphy {
 /// What a simulated device shows during a fault.
 enum class SimulatedFaultKind : std::uint8_t {
   stale,      ///< no new sample arrives: the last one again, with status `stale` and the cause `fault`
-  late,       ///< samples are `ticks` older than usual, as their time tells
+  late,       ///< samples are `ticks` older than usual, as their time shows
   garbage,    ///< position and velocity are NaN although the status is ok: a frame was lost or corrupted
   unplugged,  ///< the last sample, `disconnected`, with the cause `unplugged`; forces have no effect
   reported    ///< fresh samples with `status` and `fault`
 };
 
-/// One fault: active at every virtual time from `begin` until before `begin` + `duration`.
+/// One fault: active from virtual time `begin` until just before `begin` + `duration`.
 struct SimulatedFault {
   double begin = 0.0;                                   ///< virtual time of the device [s]
-  double duration = 0.0;                                ///< how long it lasts; infinity: for good [s]
+  double duration = 0.0;                                ///< how long it lasts; infinity: forever [s]
   SimulatedFaultKind kind = SimulatedFaultKind::stale;  ///< what the device shows
   int ticks = 1;                              ///< late: 1 to 1000 advances more than the device's sample delay
   DeviceStatus status = DeviceStatus::fault;  ///< reported: the status of every sample

@@ -13,7 +13,7 @@ namespace calligraphy {
 
 /// Characters and their provenance.
 struct CharacterList {
-  Provenance provenance;  ///< of all of them
+  Provenance provenance;              ///< of all of them
   std::vector<Character> characters;  ///< in any order; one with several stroke orders occurs once for each
 
   /// The character in the stroke order of this name (empty: the standard one), or null. O(characters).

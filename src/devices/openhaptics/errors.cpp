@@ -10,7 +10,7 @@ namespace {
 struct KnownError {
   ErrorCode code;
   const char* name;
-  Judgement judgement;
+  Diagnosis diagnosis;
 };
 
 constexpr KnownError known_errors[] = {
@@ -56,9 +56,9 @@ int gravity(DeviceStatus status) noexcept {
 
 }  // namespace
 
-Judgement judge(ErrorCode code) noexcept {
+Diagnosis diagnose(ErrorCode code) noexcept {
   const KnownError* known = find(code);
-  return known != nullptr ? known->judgement : Judgement{DeviceStatus::fault, DeviceFault::runtime_error};
+  return known != nullptr ? known->diagnosis : Diagnosis{DeviceStatus::fault, DeviceFault::runtime_error};
 }
 
 bool concerns_call(ErrorCode code) noexcept { return group_of(code) == 1 && code != invalid_operation; }
@@ -68,7 +68,7 @@ bool prevents_start(ErrorCode code) noexcept {
   return !concerns_call(code) && group_of(code) != forces && group_of(code) != frames;
 }
 
-Judgement graver(const Judgement& a, const Judgement& b) noexcept {
+Diagnosis more_severe(const Diagnosis& a, const Diagnosis& b) noexcept {
   return gravity(b.status) > gravity(a.status) ? b : a;
 }
 

@@ -1,4 +1,4 @@
-// How much of the peak force the motors may give while the vendor's runtime says that they are warm.
+// The fraction of the peak force that the motors may exert while the vendor's runtime reports that they are warm.
 #pragma once
 
 #include <algorithm>
@@ -7,14 +7,14 @@
 namespace calligraphy::hdapi {
 
 /// The vendor's examples switch the force off while the runtime reports warm motors, and lower it from a temperature of
-/// 0.7 on until 0.5, on a scale on which 1 is the one that the motors must not reach. Here the permitted force is all
-/// of the peak up to 0.7 and falls linearly to none at 1; while warm motors are reported it is none. It moves there
-/// slowly, since a guidance that gives way at once feels like a fault, except at the limit.
+/// 0.7 on until 0.5, on a scale where the motors must not reach 1. Here the permitted force is the peak up to 0.7 and
+/// falls linearly to zero at 1; while warm motors are reported it is zero. The limit moves there slowly, except at 1,
+/// since guidance that gives way at once feels like a fault.
 class HeatLimit {
  public:
   static constexpr double fall_time = 10.0;     ///< from the peak to none [s]
   static constexpr double rise_time = 30.0;     ///< from none to the peak [s]
-  static constexpr double fall_at_limit = 0.1;  ///< as fall_time, from temperature 1 on [s]
+  static constexpr double fall_at_limit = 0.1;  ///< fall_time from temperature 1 on [s]
   static constexpr double warm = 0.7, cool = 0.5;
 
   /// `reported`: warm motors; `temperature`: of the warmest motor, NaN if the runtime does not say [1]; `elapsed` since
@@ -26,12 +26,12 @@ class HeatLimit {
     is_warm_ = share_ < 1.0 || (is_warm_ && temperature > cool);
   }
 
-  /// Of the peak force.
+  /// Permitted fraction of the peak force.
   double share() const noexcept { return share_; }
   bool is_warm() const noexcept { return is_warm_; }
 
  private:
-  /// Time that counts after a pause, in which the motors have cooled [s].
+  /// Time that counts at most after a pause, in which the motors have cooled [s].
   static constexpr double max_step = 5e-3;
 
   static double of(double temperature) noexcept { return std::clamp((1.0 - temperature) / (1.0 - warm), 0.0, 1.0); }

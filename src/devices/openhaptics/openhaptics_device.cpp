@@ -23,14 +23,14 @@ constexpr double millimetre = 1e-3;  // [m]
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int max_errors = 16;       // fetched per tick
 
-/// Interval of looks at calibration and temperature: short for a person, long enough to cost nothing [ticks].
-constexpr int look_interval = 50;
+/// Interval between checks of calibration and temperature: short for a person, long enough to cost nothing [ticks].
+constexpr int check_interval = 50;
 
 std::string text(const char* string) { return string != nullptr ? string : ""; }
 
 bool holds(const std::string& name, const char* part) { return name.find(part) != std::string::npos; }
 
-/// For values that the runtime does not provide: the closest built-in profile, or the weakest one if none matches.
+/// The closest built-in profile, or the weakest one if none matches, for values that the runtime does not provide.
 const Capabilities& closest_profile(const std::string& model) {
   if (holds(model, "Premium")) return device_profile("premium-1.5");
   if (holds(model, "Desktop") || holds(model, "Touch X")) return device_profile("desktop");
@@ -85,9 +85,9 @@ class OpenHapticsDevice::Implementation {
   const Functions& hd() const noexcept { return runtime->functions(); }
   Handle open_device(const OpenHapticsOptions& options);
   Capabilities ask_capabilities();
-  void look_at_calibration() noexcept;
-  void look_at_temperature() noexcept;
-  Judgement take_errors() noexcept;
+  void check_calibration() noexcept;
+  void check_temperature() noexcept;
+  Diagnosis take_errors() noexcept;
 
   double (*time_)() noexcept;
   Enum calibration_style_;
@@ -96,12 +96,12 @@ class OpenHapticsDevice::Implementation {
   double opened_ = 0.0;  ///< [s]
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< of the workspace, in the runtime's coordinates [m]
   DeviceState state_;
-  Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();  ///< as the runtime got it [N]
+  Eigen::Vector3d sent_ = Eigen::Vector3d::Zero();  ///< as passed to the runtime [N]
   HeatLimit heat_;
-  bool asks_temperature_ = true;  ///< until the runtime refuses to tell it
-  double temperature_ = unknown;  ///< of the warmest motor, as of the last look; 1: the vendor's limit
-  int until_look_ = 0;            ///< [ticks]
-  std::atomic<Enum> calibration_ = calibration_ok;  ///< as of the last check
+  bool asks_temperature_ = true;  ///< false once the runtime has refused to report it
+  double temperature_ = unknown;  ///< of the warmest motor at the last check; 1: the vendor's limit
+  int until_check_ = 0;           ///< [ticks]
+  std::atomic<Enum> calibration_ = calibration_ok;  ///< at the last check
   std::atomic<bool> is_warm_ = false;
 };
 
@@ -117,7 +117,7 @@ OpenHapticsDevice::Implementation::Implementation(const OpenHapticsOptions& opti
   open_ = true;
   capabilities = ask_capabilities();
   calibration_ = hd().hdCheckCalibration();
-  runtime->take_errors();  // discards those of queries that a model does not support
+  runtime->take_errors();  // discards those from queries that a model does not support
   clock = std::make_unique<SchedulerClock>(runtime, device_, time_);
   opened_ = time_();
   state_.velocity.setZero();
@@ -129,7 +129,7 @@ Handle OpenHapticsDevice::Implementation::open_device(const OpenHapticsOptions& 
   runtime->take_errors();
   const Handle device = hd().hdInitDevice(options.device.empty() ? nullptr : options.device.c_str());
   const std::string errors = runtime->take_errors();
-  // Errors such as warm motors may be reported for a device that did open.
+  // Errors such as warm motors may be reported although the device did open.
   if (device != invalid_handle) {
     hd().hdMakeCurrentDevice(device);
     return device;
@@ -181,31 +181,31 @@ DeviceState OpenHapticsDevice::Implementation::read() noexcept {
   hd().hdGetDoublev(current_position, position);
   hd().hdGetDoublev(current_velocity, velocity);
   hd().hdGetIntegerv(current_buttons, &buttons);
-  const bool looks = --until_look_ <= 0;
-  if (looks) look_at_calibration();
-  Judgement judgement = take_errors();
-  if (looks) {
-    until_look_ = look_interval;
-    look_at_temperature();
+  const bool is_due = --until_check_ <= 0;
+  if (is_due) check_calibration();
+  Diagnosis diagnosis = take_errors();
+  if (is_due) {
+    until_check_ = check_interval;
+    check_temperature();
   }
   const double time = time_() - opened_;
-  heat_.update(judgement.status == DeviceStatus::warm_motors, temperature_, time - state_.time);
+  heat_.update(diagnosis.status == DeviceStatus::warm_motors, temperature_, time - state_.time);
   is_warm_.store(heat_.is_warm(), std::memory_order_relaxed);
-  if (heat_.is_warm()) judgement = graver(judgement, {DeviceStatus::warm_motors, DeviceFault::none});
+  if (heat_.is_warm()) diagnosis = more_severe(diagnosis, {DeviceStatus::warm_motors, DeviceFault::none});
   if (calibration_.load(std::memory_order_relaxed) != calibration_ok) {
-    judgement = graver(judgement, {DeviceStatus::needs_calibration, DeviceFault::uncalibrated});
+    diagnosis = more_severe(diagnosis, {DeviceStatus::needs_calibration, DeviceFault::uncalibrated});
   }
   state_.time = time;
   state_.position = millimetre * Eigen::Vector3d(position[0], position[1], position[2]) - centre_;
   state_.velocity = millimetre * Eigen::Vector3d(velocity[0], velocity[1], velocity[2]);
   state_.force = clock->output_on() ? sent_ : Eigen::Vector3d(Eigen::Vector3d::Zero());
   state_.buttons = static_cast<std::uint32_t>(buttons) & 0xF;
-  state_.status = judgement.status;
-  state_.fault = judgement.fault;
+  state_.status = diagnosis.status;
+  state_.fault = diagnosis.fault;
   return state_;
 }
 
-void OpenHapticsDevice::Implementation::look_at_calibration() noexcept {
+void OpenHapticsDevice::Implementation::check_calibration() noexcept {
   Enum calibration = hd().hdCheckCalibration();
   if (calibration == calibration_needs_update) {
     hd().hdUpdateCalibration(calibration_style_);
@@ -214,10 +214,10 @@ void OpenHapticsDevice::Implementation::look_at_calibration() noexcept {
   calibration_.store(calibration, std::memory_order_relaxed);
 }
 
-/// Call when all errors have been taken: what is pending afterwards is about the question alone.
-void OpenHapticsDevice::Implementation::look_at_temperature() noexcept {
+/// Call when no errors are pending: any that follow are then about this query alone.
+void OpenHapticsDevice::Implementation::check_temperature() noexcept {
   if (!asks_temperature_) return;
-  constexpr double most_plausible = 2.0;  // on this scale; above, it is another one
+  constexpr double most_plausible = 2.0;  // a higher value is on another scale
   double motors[16];
   std::fill(std::begin(motors), std::end(motors), unknown);
   hd().hdGetDoublev(motor_temperature, motors);
@@ -232,13 +232,13 @@ void OpenHapticsDevice::Implementation::look_at_temperature() noexcept {
   }
 }
 
-Judgement OpenHapticsDevice::Implementation::take_errors() noexcept {
-  Judgement result;
+Diagnosis OpenHapticsDevice::Implementation::take_errors() noexcept {
+  Diagnosis result;
   for (int i = 0; i < max_errors; ++i) {
     const ErrorInfo error = hd().hdGetError();
     if (error.code == no_error) break;
     last_error.store(error.code, std::memory_order_relaxed);
-    result = graver(result, judge(error.code));
+    result = more_severe(result, diagnose(error.code));
   }
   return result;
 }

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int max_errors = 64;  // bounds the loop if a runtime never reports that there are no more
 
-/// The vendor's runtime is inherently global to the process: devices opened in several places share its scheduler. Its
-/// file stays loaded, because threads of its own may outlive a device.
+/// The vendor's runtime is global to the process: devices opened in several places share its scheduler. Its file stays
+/// loaded, because its own threads may outlive a device.
 std::mutex registry_mutex;
 std::vector<std::pair<void*, std::shared_ptr<Runtime>>> registry;
 
@@ -69,8 +69,8 @@ std::shared_ptr<Runtime> Runtime::load(const std::string& name) {
   for (const std::string& candidate : names_to_try(name)) {
     void* const file = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (file == nullptr) {
-      const char* const told = dlerror();
-      const std::string reason = told != nullptr ? told : "no reason given";
+      const char* const message = dlerror();
+      const std::string reason = message != nullptr ? message : "no reason given";
       const bool names_it = reason.starts_with(candidate + ":");
       tried += (tried.empty() ? "" : "; ") + (names_it ? "" : candidate + ": ") + reason;
       continue;

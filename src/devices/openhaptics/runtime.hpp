@@ -10,7 +10,7 @@ namespace calligraphy::hdapi {
 
 class Runtime {
  public:
-  /// Returns the runtime if it is already loaded, otherwise loads it. Empty name: see OpenHapticsOptions::library.
+  /// Returns the runtime, loading it if necessary. For an empty name see OpenHapticsOptions::library.
   /// @throws DeviceError naming what was tried or what is missing, with a remedy
   static std::shared_ptr<Runtime> load(const std::string& name);
 
@@ -33,7 +33,7 @@ class Runtime {
  private:
   std::string library_;
   Functions functions_ = {};
-  int users_ = 0;  ///< of the scheduler
+  int users_ = 0;  ///< users of the scheduler
 };
 
 }  // namespace calligraphy::hdapi

@@ -42,7 +42,7 @@ void SchedulerClock::start(std::function<void(double now)> tick) {
 void SchedulerClock::stop() noexcept {
   if (!running_) return;
   stopping_ = true;
-  // The callback finishes with a zero-force frame. A scheduler that no longer calls it is not waited for long.
+  // The callback finishes with a zero-force frame. If the scheduler no longer calls it, the wait is short.
   constexpr int max_wait = 100;  // [ms]
   for (int i = 0; i < max_wait && !finished_; ++i) wait_a_little();
   while (inside_) wait_a_little();
@@ -58,7 +58,7 @@ bool SchedulerClock::within_tick() const noexcept { return current_tick == this;
 
 void SchedulerClock::cut_force() noexcept {
   if (!output_on_.exchange(false)) return;
-  // Whether the current device is per thread is not documented, so it is set before each use.
+  // It is not documented whether the current device is per thread, so it is set before each use.
   runtime_->functions().hdMakeCurrentDevice(device_);
   runtime_->functions().hdDisable(force_output);
 }

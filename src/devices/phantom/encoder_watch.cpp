@@ -21,7 +21,7 @@ constexpr double travel_while_stuck = 2.5;  // [rad]
 EncoderWatch::EncoderWatch(const PerJoint<Field>& fields, const Eigen::Vector3d& counts_per_radian)
     : bits_{fields[0].bits, fields[1].bits, fields[2].bits}, counts_per_radian_(counts_per_radian) {}
 
-EncoderWatch::Answer EncoderWatch::judge(const PerJoint<std::int64_t>& shown, double elapsed, bool even) noexcept {
+EncoderWatch::Result EncoderWatch::check(const PerJoint<std::int64_t>& shown, double elapsed, bool even) noexcept {
   if (!started_) {
     started_ = true;
     shown_ = shown;

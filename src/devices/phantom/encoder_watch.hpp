@@ -22,7 +22,7 @@ namespace calligraphy::phantom {
 /// hand is considered still.
 class EncoderWatch {
  public:
-  struct Answer {
+  struct Result {
     bool used = true;
     bool lost_count = false;  ///< the angles have restarted from zero
     DeviceFault fault = DeviceFault::none;
@@ -30,11 +30,11 @@ class EncoderWatch {
 
   EncoderWatch(const PerJoint<Field>& fields, const Eigen::Vector3d& counts_per_radian);
 
-  /// `elapsed`: time since the last call [s]. `even`: that time comes from the device's sequence number, not from the
+  /// `elapsed`: time since the last call [s]. `even`: the time comes from the device's sequence number, not from the
   /// arrival time, whose jitter would look like a change of speed.
-  Answer judge(const PerJoint<std::int64_t>& shown, double elapsed, bool even) noexcept;
+  Result check(const PerJoint<std::int64_t>& shown, double elapsed, bool even) noexcept;
 
-  /// Accepts any next counts; the angles restart from zero.
+  /// Accepts any counts next; the angles restart from zero.
   void restart() noexcept;
   /// Reports were missing for a long time, but the encoders kept counting: the next change is not a jump.
   void interrupt() noexcept;
@@ -43,7 +43,7 @@ class EncoderWatch {
   Eigen::Vector3d angles() const noexcept;
   /// Mean velocity since the last used report [rad/s]; zero if there was none.
   const Eigen::Vector3d& velocity() const noexcept { return velocity_; }
-  /// The time over which velocity() is the mean [s].
+  /// Time over which velocity() is averaged [s].
   double interval() const noexcept { return interval_; }
 
  private:

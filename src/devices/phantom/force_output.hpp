@@ -31,13 +31,13 @@ class ForceOutput {
   /// direction is preserved. `gain` scales the gravity compensation; 0 switches the motors off.
   RawCommand command(const Joints& joints, const Eigen::Vector3d& force, double gain) noexcept;
 
-  /// The force at the tip of the last command, after these limits, before it was rounded to counts [N].
+  /// The force at the tip from the last command, after these limits, before rounding to counts [N].
   const Eigen::Vector3d& force() const noexcept { return force_; }
 
   double warmest() const noexcept { return temperature_.warmest(); }
-  /// Only without `limit_heat`: a motor has reached 1 and is not yet below `warm` again.
+  /// Whether a motor has reached 1 and is not yet below `warm` again. Always false with `limit_heat`.
   bool overheated() const noexcept { return overheated_; }
-  /// warmest(), thread-safe.
+  /// The value of warmest(), thread-safe.
   double published_warmest() const noexcept { return published_warmest_.load(std::memory_order_relaxed); }
 
  private:

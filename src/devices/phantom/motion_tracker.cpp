@@ -22,23 +22,23 @@ MotionTracker::MotionTracker(const WireProfile& profile, const Linkage& linkage,
       joint_velocity_(velocity_cutoff),
       offset_(docked_angles_) {}
 
-MotionTracker::Judgement MotionTracker::take(const RawSample& sample, double now) noexcept {
-  Judgement judgement;
-  judgement.fault = sample.fault;
-  if (!is_readable(sample.fault)) return judgement;
-  SequenceWatch::Answer sequence;
-  if (has_sequence_) sequence = sequence_.judge(sample.sequence);
-  if (sequence.fault != DeviceFault::none) judgement.fault = sequence.fault;
-  judgement.repeated = !sequence.fresh;
-  if (!sequence.fresh) return judgement;
-  judgement.lost = static_cast<std::uint64_t>(sequence.steps - 1);
+MotionTracker::Result MotionTracker::take(const RawSample& sample, double now) noexcept {
+  Result result;
+  result.fault = sample.fault;
+  if (!is_readable(sample.fault)) return result;
+  SequenceWatch::Result sequence;
+  if (has_sequence_) sequence = sequence_.check(sample.sequence);
+  if (sequence.fault != DeviceFault::none) result.fault = sequence.fault;
+  result.repeated = !sequence.fresh;
+  if (!sequence.fresh) return result;
+  result.lost = static_cast<std::uint64_t>(sequence.steps - 1);
 
   double elapsed = static_cast<double>(sequence.steps) * period_;
   if (!has_sequence_) elapsed = std::max(now - last_time_, 0.5 * period_);
   last_time_ = now;
-  const EncoderWatch::Answer encoders = encoders_.judge(sample.encoders, elapsed, has_sequence_);
-  if (encoders.fault != DeviceFault::none) judgement.fault = encoders.fault;
-  if (!encoders.used) return judgement;
+  const EncoderWatch::Result encoders = encoders_.check(sample.encoders, elapsed, has_sequence_);
+  if (encoders.fault != DeviceFault::none) result.fault = encoders.fault;
+  if (!encoders.used) return result;
   if (encoders.lost_count) {
     offset_ = motion_.joints;  // the best available estimate
     motion_.calibrated = false;
@@ -54,11 +54,11 @@ MotionTracker::Judgement MotionTracker::take(const RawSample& sample, double now
   motion_.velocity =
       tip_jacobian(linkage_, motion_.joints) * joint_velocity_.update(encoders_.angles(), encoders_.interval());
   if (motion_.calibrated && !within_limits(linkage_, motion_.joints, limit_margin) &&
-      judgement.fault == DeviceFault::none) {
-    judgement.fault = DeviceFault::outside_workspace;
+      result.fault == DeviceFault::none) {
+    result.fault = DeviceFault::outside_workspace;
   }
-  judgement.fresh = true;
-  return judgement;
+  result.fresh = true;
+  return result;
 }
 
 void MotionTracker::follow_docking(bool docked) noexcept {

@@ -28,7 +28,7 @@ struct Motion {
 /// first report is assumed to come from the inkwell, so that relative motion is visible.
 class MotionTracker {
  public:
-  struct Judgement {
+  struct Result {
     bool fresh = false;  ///< motion() is new
     DeviceFault fault = DeviceFault::none;
     std::uint64_t lost = 0;  ///< reports missing before this one
@@ -39,11 +39,11 @@ class MotionTracker {
   /// empty.
   MotionTracker(const WireProfile& profile, const Linkage& linkage, double velocity_cutoff);
 
-  Judgement take(const RawSample& sample, double now) noexcept;
+  Result take(const RawSample& sample, double now) noexcept;
   const Motion& motion() const noexcept { return motion_; }
 
-  /// The link was interrupted. Unless the encoders are known to have kept counting, calibration is lost, because they
-  /// are incremental.
+  /// Starts anew after an interruption of the link. Calibration is lost unless the incremental encoders are known to
+  /// have kept counting.
   void restart(bool keep_calibration) noexcept;
   /// Sets the current joint angles [rad].
   void calibrate(const Joints& joints) noexcept;

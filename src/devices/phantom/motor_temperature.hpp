@@ -14,7 +14,7 @@ class MotorTemperature {
   /// Temperature from which a motor counts as warm.
   static constexpr double warm = 0.8;
 
-  /// Torque that each motor sustains indefinitely, and the maximum that will be commanded [N m]; above 0.
+  /// `continuous`: torque that each motor sustains indefinitely; `peak`: maximum that will be commanded. Above 0 [N m].
   MotorTemperature(const Eigen::Vector3d& continuous, const Eigen::Vector3d& peak);
 
   /// Advances time under a constant torque; exact for any step.

@@ -16,7 +16,7 @@
 namespace calligraphy {
 namespace {
 
-constexpr double glance = 0.1;  // [s]
+constexpr double poll_interval = 0.1;  // [s]
 
 class Recorder final : public phantom::LinkListener {
  public:
@@ -34,7 +34,7 @@ class Recorder final : public phantom::LinkListener {
     std::unique_lock<std::mutex> lock(mutex_);
     for (double left = options.seconds; transfers_.size() < limit_ && left > 0.0 && !(options.stop && options.stop());
          left = start_ + options.seconds - monotonic_seconds()) {
-      full_.wait_for(lock, std::chrono::duration<double>(std::min(left, glance)));
+      full_.wait_for(lock, std::chrono::duration<double>(std::min(left, poll_interval)));
     }
     return transfers_;
   }

@@ -27,7 +27,7 @@ namespace {
 
 using namespace phantom;
 
-constexpr double fault_time = 20e-3;      // for which a fault is reported: longer than any ramp-down [s]
+constexpr double fault_time = 20e-3;      // time for which a fault is reported: longer than any ramp-down [s]
 constexpr double silence = 8e-3;          // time without a report: three times the longest pause of a real device [s]
 constexpr double write_patience = 20e-3;  // time without a command [s]
 constexpr double ramp_down = 10e-3;       // [s]
@@ -105,22 +105,22 @@ class PhantomDevice::Core final : public LinkListener {
   void received(std::span<const std::byte> bytes) noexcept override {
     const double now = clock_();
     take_calibration();
-    frames_.feed(bytes, [&](const RawSample& sample) { judge(sample, now); });
+    frames_.feed(bytes, [&](const RawSample& sample) { process(sample, now); });
     counts_.skipped_bytes.store(frames_.skipped_bytes(), std::memory_order_relaxed);
-    release_if_forgotten(now);
+    switch_off_if_idle(now);
   }
 
   void changed(DeviceFault fault) noexcept override {
     const DeviceFault before = link_fault_.load(std::memory_order_relaxed);
     if (fault != DeviceFault::none) {
-      tell(fault, clock_());
-      start_due_ = start_due_ || fault != DeviceFault::overlong_frame;  // which leaves the link up
+      report_fault(fault, clock_());
+      start_due_ = start_due_ || fault != DeviceFault::overlong_frame;  // an overlong frame leaves the link up
     } else if (!started_ || before == DeviceFault::unplugged) {
       frames_.reset();
       tracker_.restart(started_ && options_.keep_calibration);
       started_ = true;
     }
-    // A device that has reset itself without leaving the bus may be silent until it receives its start commands.
+    // A device that resets without leaving the bus may be silent until it receives its start commands.
     if (start_due_ && !closing_.load(std::memory_order_acquire) &&
         (fault == DeviceFault::none || fault == DeviceFault::timed_out)) {
       const bool taken = send_all(codec_.profile().start);
@@ -128,7 +128,7 @@ class PhantomDevice::Core final : public LinkListener {
         start_due_ = !taken;
         if (!taken) {
           fault = DeviceFault::link_error;
-          tell(fault, clock_());
+          report_fault(fault, clock_());
         }
       }
     }
@@ -153,10 +153,10 @@ class PhantomDevice::Core final : public LinkListener {
     state.force = motors_on_.load(std::memory_order_relaxed) ? sent_force_ : Eigen::Vector3d::Zero();
     state.buttons = motion_.buttons;
     state.fault = fault_now(now);
-    const std::uint64_t told = told_.load(std::memory_order_acquire);
-    if (state.fault == DeviceFault::none && told != told_seen_)
-      state.fault = told_fault_.load(std::memory_order_relaxed);
-    told_seen_ = told;
+    const std::uint64_t fault_count = fault_count_.load(std::memory_order_acquire);
+    if (state.fault == DeviceFault::none && fault_count != faults_seen_)
+      state.fault = momentary_fault_.load(std::memory_order_relaxed);
+    faults_seen_ = fault_count;
     if (!open_ || state.fault == DeviceFault::unplugged) {
       state.status = DeviceStatus::disconnected;
     } else if (state.fault != DeviceFault::none) {
@@ -204,7 +204,7 @@ class PhantomDevice::Core final : public LinkListener {
     if (!open_) return;
     open_ = false;
     closing_.store(true, std::memory_order_release);  // no start commands from here on
-    send_off();
+    send_final_packet();
     send_all(codec_.profile().stop);
   }
 
@@ -232,7 +232,7 @@ class PhantomDevice::Core final : public LinkListener {
   const Motion& motion() const noexcept { return motion_; }
   const std::string& description() const noexcept { return description_; }
   const std::vector<std::string>& warnings() const noexcept { return warnings_; }
-  /// Of the last sample that was not stale.
+  /// Status of the last sample that was not stale.
   DeviceStatus status() const noexcept { return status_.load(std::memory_order_relaxed); }
 
  private:
@@ -242,7 +242,7 @@ class PhantomDevice::Core final : public LinkListener {
     std::array<std::atomic<std::uint64_t>, device_fault_count> faults{};
   };
 
-  /// What protects nobody once this program has been killed.
+  /// Warns of missing fields without which nothing protects the user once this program has been killed.
   void warn_of_profile() {
     const WireProfile& profile = codec_.profile();
     const std::string start = "wire profile \"" + profile.name + "\" has no line \"";
@@ -260,31 +260,31 @@ class PhantomDevice::Core final : public LinkListener {
     counter.fetch_add(more, std::memory_order_relaxed);
   }
 
-  void judge(const RawSample& sample, double now) noexcept {
+  void process(const RawSample& sample, double now) noexcept {
     count(counts_.reports);
-    const MotionTracker::Judgement judgement = tracker_.take(sample, now);
-    count(counts_.lost, judgement.lost);
-    if (judgement.repeated) count(counts_.repeated);
-    if (judgement.fault != DeviceFault::none) tell(judgement.fault, now);
-    if (!judgement.fresh) return;
+    const MotionTracker::Result result = tracker_.take(sample, now);
+    count(counts_.lost, result.lost);
+    if (result.repeated) count(counts_.repeated);
+    if (result.fault != DeviceFault::none) report_fault(result.fault, now);
+    if (!result.fresh) return;
     count(counts_.used);
     latest_.publish(tracker_.motion());
   }
 
   /// Reports a momentary fault to both threads.
-  void tell(DeviceFault fault, double now) noexcept {
+  void report_fault(DeviceFault fault, double now) noexcept {
     count(counts_.faults[static_cast<std::size_t>(fault)]);
-    told_fault_.store(fault, std::memory_order_relaxed);
-    told_until_.store(now + fault_time, std::memory_order_relaxed);
-    told_.fetch_add(1, std::memory_order_release);
+    momentary_fault_.store(fault, std::memory_order_relaxed);
+    fault_until_.store(now + fault_time, std::memory_order_relaxed);
+    fault_count_.fetch_add(1, std::memory_order_release);
   }
 
   /// The fault that currently prevents a force; for the thread of the servo loop.
   DeviceFault fault_now(double now) noexcept {
     const DeviceFault link_fault = link_fault_.load(std::memory_order_acquire);
     if (link_fault != DeviceFault::none) return link_fault;
-    if (told_.load(std::memory_order_acquire) > 0 && now < told_until_.load(std::memory_order_relaxed)) {
-      return told_fault_.load(std::memory_order_relaxed);
+    if (fault_count_.load(std::memory_order_acquire) > 0 && now < fault_until_.load(std::memory_order_relaxed)) {
+      return momentary_fault_.load(std::memory_order_relaxed);
     }
     if (output_.overheated()) return DeviceFault::overheated;
     if (now - last_report_ > silence) {
@@ -305,7 +305,7 @@ class PhantomDevice::Core final : public LinkListener {
   }
 
   /// Switches the motors off when the servo loop no longer calls write(); they would otherwise hold the last command.
-  void release_if_forgotten(double now) noexcept {
+  void switch_off_if_idle(double now) noexcept {
     if (!motors_on_.load(std::memory_order_relaxed)) return;
     if (now - last_write_.load(std::memory_order_acquire) <= write_patience) return;
     if (send({}, Sender::link_thread)) count(counts_.released);
@@ -332,7 +332,7 @@ class PhantomDevice::Core final : public LinkListener {
   }
 
   /// Sends the final packet: it replaces a pending one, then is sent as a command, which nothing can overtake.
-  void send_off() noexcept {
+  void send_final_packet() noexcept {
     if (codec_.profile().command_size == 0) return;
     while (sending_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();  // never cleared
     RawCommand off;
@@ -373,9 +373,9 @@ class PhantomDevice::Core final : public LinkListener {
   // From the link's thread to the servo loop.
   LatestValue<Motion> latest_;
   std::atomic<DeviceFault> link_fault_ = DeviceFault::none;  ///< persistent
-  std::atomic<DeviceFault> told_fault_ = DeviceFault::none;  ///< momentary
-  std::atomic<double> told_until_ = 0.0;
-  std::atomic<std::uint64_t> told_ = 0;  ///< number of reports
+  std::atomic<DeviceFault> momentary_fault_ = DeviceFault::none;
+  std::atomic<double> fault_until_ = 0.0;
+  std::atomic<std::uint64_t> fault_count_ = 0;  ///< number of momentary faults
 
   // From the servo loop to the link's thread.
   std::atomic<double> last_write_ = 0.0;
@@ -397,11 +397,11 @@ class PhantomDevice::Core final : public LinkListener {
   Motion motion_;
   double last_report_ = 0.0;
   double silent_until_ = 0.0;
-  std::uint64_t told_seen_ = 0;
+  std::uint64_t faults_seen_ = 0;
   Joints good_joints_ = Joints::Zero();  ///< at the last good force; during a fault the newest may be wrong
   ForceGuard guard_;
   ForceOutput output_;
-  Eigen::Vector3d sent_force_ = Eigen::Vector3d::Zero();  ///< of the last command that was sent [N]
+  Eigen::Vector3d sent_force_ = Eigen::Vector3d::Zero();  ///< force of the last command sent [N]
 
   std::atomic<DeviceStatus> status_ = DeviceStatus::stale;  ///< for any thread
   Counts counts_;

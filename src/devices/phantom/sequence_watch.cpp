@@ -6,7 +6,7 @@
 
 namespace calligraphy::phantom {
 
-SequenceWatch::Answer SequenceWatch::judge(std::uint32_t shown) noexcept {
+SequenceWatch::Result SequenceWatch::check(std::uint32_t shown) noexcept {
   const std::int64_t steps = started_ ? min_step(last_, shown, bits_) : 1;
   started_ = true;
   last_ = shown;

@@ -12,29 +12,29 @@ namespace calligraphy::phantom {
 /// the third repetition on it is a fault.
 class SequenceWatch {
  public:
-  struct Answer {
+  struct Result {
     std::int64_t steps = 1;  ///< reports since the last fresh one, including this one
-    bool fresh = true;       ///< to be used
+    bool fresh = true;       ///< the report is to be used
     DeviceFault fault = DeviceFault::none;
   };
 
   explicit SequenceWatch(int bits) noexcept : bits_(bits) {}
 
-  Answer judge(std::uint32_t shown) noexcept;
-  /// Accepts any next number.
+  Result check(std::uint32_t shown) noexcept;
+  /// Accepts any number next.
   void restart() noexcept { started_ = false; }
 
  private:
   static constexpr std::int64_t lost_in_a_row = 3;
   static constexpr int repeats_in_a_row = 3;
-  static constexpr double forgiven = 0.02;  ///< fraction of a lost report, per report that arrives
+  static constexpr double forgiven = 0.02;  ///< fraction of a lost report that each arriving report makes up for
   static constexpr double max_debt = 10.0;
 
   int bits_;
   bool started_ = false;
   std::uint32_t last_ = 0;
   int repeats_ = 0;
-  double debt_ = 0.0;  ///< lost reports not yet forgiven
+  double debt_ = 0.0;  ///< lost reports not yet made up for
 };
 
 }  // namespace calligraphy::phantom

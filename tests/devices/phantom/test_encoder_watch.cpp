@@ -16,11 +16,11 @@ struct Watched {
   EncoderWatch watch{calligraphy_test::parsed(calligraphy_test::minimal_profile).encoders, {1000.0, 1000.0, -1000.0}};
   PerJoint<std::int64_t> counts{65000, 0, 30000};
 
-  EncoderWatch::Answer move(std::int64_t a, std::int64_t b, std::int64_t c, bool even = true, double elapsed = 1e-3) {
+  EncoderWatch::Result move(std::int64_t a, std::int64_t b, std::int64_t c, bool even = true, double elapsed = 1e-3) {
     counts[0] = (counts[0] + a) & 0xFFFF;
     counts[1] = (counts[1] + b) & 0xFFFF;
     counts[2] = (counts[2] + c) & 0xFFFF;
-    return watch.judge(counts, elapsed, even);
+    return watch.check(counts, elapsed, even);
   }
 };
 
@@ -31,7 +31,7 @@ TEST_CASE("angles start at zero and follow the counts across wraps, with their s
   CHECK(held.move(0, 0, 0).used);
   CHECK(held.watch.angles() == Eigen::Vector3d::Zero());
   for (int i = 0; i < 1000; ++i) {
-    const EncoderWatch::Answer answer = held.move(7, -3, 5);
+    const EncoderWatch::Result answer = held.move(7, -3, 5);
     REQUIRE(answer.used);
     REQUIRE(answer.fault == DeviceFault::none);
   }
@@ -48,7 +48,7 @@ TEST_CASE("a joint may turn at 59 rad/s but not at 61, whatever the clock of the
       REQUIRE(held.move(1, speed, 1, even).used);
     }
     const Eigen::Vector3d before = held.watch.angles();
-    const EncoderWatch::Answer answer = held.move(0, 61, 0, even);
+    const EncoderWatch::Result answer = held.move(0, 61, 0, even);
     CHECK(answer.fault == DeviceFault::leaping_encoder);
     CHECK_FALSE(answer.used);
     CHECK(held.watch.angles() == before);
@@ -80,7 +80,7 @@ TEST_CASE("after five jumps in a row the counts are considered lost", "[phantom]
   held.move(5, 5, 5);
   CHECK_FALSE(held.move(5000, 0, 0).used);
   for (int i = 0; i < 3; ++i) REQUIRE_FALSE(held.move(0, 0, 0).lost_count);
-  const EncoderWatch::Answer answer = held.move(0, 0, 0);
+  const EncoderWatch::Result answer = held.move(0, 0, 0);
   CHECK(answer.used);
   CHECK(answer.lost_count);
   CHECK(answer.fault == DeviceFault::leaping_encoder);
@@ -132,7 +132,7 @@ TEST_CASE("a restarted watch behaves like a new one", "[phantom][encoders]") {
   CHECK(used.watch.interval() == 0.0);
   used.counts = fresh.counts;
   const auto same = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
-    const EncoderWatch::Answer first = used.move(a, b, c), second = fresh.move(a, b, c);
+    const EncoderWatch::Result first = used.move(a, b, c), second = fresh.move(a, b, c);
     return first.used == second.used && first.lost_count == second.lost_count && first.fault == second.fault &&
            used.watch.velocity() == fresh.watch.velocity() && used.watch.interval() == fresh.watch.interval() &&
            used.watch.angles() == fresh.watch.angles();

@@ -29,8 +29,8 @@ struct Tracked {
   double now = 0.0;
   RawSample sample;
 
-  MotionTracker::Judgement report(std::int64_t waist = 0, std::int64_t shoulder = 0, std::int64_t elbow = 0,
-                                  double elapsed = 1e-3) {
+  MotionTracker::Result report(std::int64_t waist = 0, std::int64_t shoulder = 0, std::int64_t elbow = 0,
+                               double elapsed = 1e-3) {
     now += elapsed;
     ++sample.sequence;
     sample.encoders[0] = (sample.encoders[0] + waist) & 0xFFFF;
@@ -177,7 +177,7 @@ TEST_CASE("without sequence numbers neither simultaneous reports nor an uneven c
   Tracked held(false);
   held.rest(5);
   held.report(5);
-  const MotionTracker::Judgement burst = held.report(5, 0, 0, 0.0);
+  const MotionTracker::Result burst = held.report(5, 0, 0, 0.0);
   CHECK(burst.fresh);
   CHECK(burst.fault == DeviceFault::none);
   for (int i = 0; i < 20; ++i) {  // 28 rad/s, then as if 56 rad/s
@@ -199,7 +199,7 @@ TEST_CASE("after an interruption no earlier state is left, unless the encoders h
   held.sample.sequence = 7;  // the device restarts its count
   held.tracker.restart(keep);
   CHECK(held.calibrated() == keep);
-  const MotionTracker::Judgement first = held.report(1000);
+  const MotionTracker::Result first = held.report(1000);
   CHECK(first.fault == DeviceFault::none);
   CHECK(first.lost == 0);
   CHECK(held.tracker.motion().joints.isApprox(keep ? Joints(before + Joints(1000.0 / 2425.0, 0, 0))

@@ -10,7 +10,7 @@ using namespace calligraphy::phantom;
 TEST_CASE("a sequence continues across its wrap", "[phantom][sequence]") {
   SequenceWatch watch(8);
   for (unsigned i = 250; i < 1000; ++i) {
-    const SequenceWatch::Answer answer = watch.judge(i & 0xFF);
+    const SequenceWatch::Result answer = watch.check(i & 0xFF);
     REQUIRE(answer.fresh);
     REQUIRE(answer.steps == 1);
     REQUIRE(answer.fault == DeviceFault::none);
@@ -20,12 +20,12 @@ TEST_CASE("a sequence continues across its wrap", "[phantom][sequence]") {
 TEST_CASE("two lost reports in a row are tolerated, three are a fault", "[phantom][sequence]") {
   for (const unsigned lost : {0u, 1u, 2u, 3u, 100u}) {
     SequenceWatch watch(32);
-    watch.judge(7);
-    const SequenceWatch::Answer answer = watch.judge(8 + lost);
+    watch.check(7);
+    const SequenceWatch::Result answer = watch.check(8 + lost);
     CHECK(answer.fresh);
     CHECK(answer.steps == 1 + static_cast<std::int64_t>(lost));
     CHECK(answer.fault == (lost < 3 ? DeviceFault::none : DeviceFault::lost_frames));
-    CHECK(watch.judge(9 + lost).steps == 1);
+    CHECK(watch.check(9 + lost).steps == 1);
   }
 }
 
@@ -34,7 +34,7 @@ TEST_CASE("losing one in sixty is tolerated indefinitely, one in forty is not", 
     SequenceWatch watch(32);
     int found = 0;
     for (unsigned i = 1; i < 20000; ++i) {
-      if (i % period != 0) found += watch.judge(i).fault != DeviceFault::none;
+      if (i % period != 0) found += watch.check(i).fault != DeviceFault::none;
     }
     return found;
   };
@@ -45,21 +45,21 @@ TEST_CASE("losing one in sixty is tolerated indefinitely, one in forty is not", 
 TEST_CASE("a repeated report is dropped, and the third in a row or one that runs backwards is a fault",
           "[phantom][sequence]") {
   SequenceWatch watch(16);
-  watch.judge(100);
+  watch.check(100);
   for (int i = 0; i < 2; ++i) {
-    const SequenceWatch::Answer answer = watch.judge(100);
+    const SequenceWatch::Result answer = watch.check(100);
     CHECK_FALSE(answer.fresh);
     CHECK(answer.fault == DeviceFault::none);
   }
-  for (int i = 0; i < 5; ++i) CHECK(watch.judge(100).fault == DeviceFault::repeated_frames);
-  CHECK(watch.judge(101).fault == DeviceFault::none);
-  CHECK(watch.judge(101).fault == DeviceFault::none);  // the first of another row
-  CHECK_FALSE(watch.judge(101).fresh);
-  CHECK(watch.judge(102).fault == DeviceFault::none);
-  const SequenceWatch::Answer back = watch.judge(99);
+  for (int i = 0; i < 5; ++i) CHECK(watch.check(100).fault == DeviceFault::repeated_frames);
+  CHECK(watch.check(101).fault == DeviceFault::none);
+  CHECK(watch.check(101).fault == DeviceFault::none);  // the first of another row
+  CHECK_FALSE(watch.check(101).fresh);
+  CHECK(watch.check(102).fault == DeviceFault::none);
+  const SequenceWatch::Result back = watch.check(99);
   CHECK_FALSE(back.fresh);
   CHECK(back.fault == DeviceFault::repeated_frames);
-  CHECK(watch.judge(100).fresh);  // a device that has begun anew is followed
+  CHECK(watch.check(100).fresh);  // a device that has begun anew is followed
   watch.restart();
-  CHECK(watch.judge(5).fault == DeviceFault::none);
+  CHECK(watch.check(5).fault == DeviceFault::none);
 }

@@ -41,7 +41,7 @@ struct CurveElement {
   std::array<double, 2 * max_curve_degree> slope_of_square = {};  ///< of (B - origin) . B', by powers of t
   SlopeOrdinates<whole_ordinates> whole;                          ///< of the whole curve
   SlopeOrdinates<max_ordinates> ordinates;                        ///< of the cells; adjacent ones share an ordinate
-  std::array<double, arc_intervals + 1> arc = {};  ///< arc length from 0 to i / 32 [m]
+  std::array<double, arc_intervals + 1> arc = {};                 ///< arc length from 0 to i / 32 [m]
 
   Point point(double t) const noexcept;
   /// dB/dt

@@ -1,4 +1,4 @@
-// Histogram of durations, written by one thread and read by any.
+// Histogram of durations, written by one thread and readable by any.
 #pragma once
 
 #include <array>

@@ -23,23 +23,22 @@ class ForceGuard {
   /// Normal tick: returns the force to output for the desired force, which must be finite [N].
   const Eigen::Vector3d& pass(const Eigen::Vector3d& wanted, double elapsed) noexcept;
 
-  /// No fresh sample: returns the last force again, or the next one of a ramp-down.
+  /// Tick without a fresh sample: returns the last force again, or the next one of a ramp-down.
   const Eigen::Vector3d& hold(double elapsed) noexcept;
 
   /// Fault: starts or continues the ramp-down. Its first tick counts as at most `max_first_step` [s], so that a clock
   /// jump does not cause a force step.
   const Eigen::Vector3d& fall(DeviceFault fault, double elapsed, double max_first_step) noexcept;
 
-  /// Sets the force to zero immediately; the next one ramps up from there.
-  /// Zero at once, for this reason.
+  /// Sets the force to zero immediately, for this reason; the next force ramps up from there.
   void cut(DeviceFault fault) noexcept;
 
   void reset() noexcept;
 
   ServoPhase phase() const noexcept { return phase_; }
-  /// Factor on the desired force, or on the last good force during a ramp-down, 0 to 1.
+  /// Factor applied to the desired force, or during a ramp-down to the last good force, 0 to 1.
   double gain() const noexcept { return gain_; }
-  /// Cause of the ramp-down, until the force has ramped up again.
+  /// Cause of the last ramp-down, until the force has ramped up again.
   DeviceFault fault() const noexcept { return fault_; }
   const Eigen::Vector3d& force() const noexcept { return force_; }
 
@@ -49,7 +48,7 @@ class ForceGuard {
   ServoPhase phase_ = {};
   DeviceFault fault_ = DeviceFault::none;
   double gain_ = 0.0;
-  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();   ///< ramped down
+  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();   ///< the force being ramped down
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();  ///< last output
 };
 

@@ -23,7 +23,7 @@ struct OpenHapticsOptions {
   std::string library;
   /// Name given to the device in the vendor's setup program; empty: the runtime's default device.
   std::string device;
-  CalibrationStyle calibration = CalibrationStyle::inkwell;  ///< what the runtime is asked for until it has calibrated
+  CalibrationStyle calibration = CalibrationStyle::inkwell;  ///< style requested until the runtime is calibrated
   double (*time)() noexcept = nullptr;                       ///< a monotonic clock [s]; null: the system's
 };
 
@@ -36,8 +36,8 @@ struct OpenHapticsOptions {
 /// other force is ignored. The output is on only while a loop runs. Open all devices before the first loop starts,
 /// because they share the runtime's single scheduler.
 ///
-/// No function of the runtime may be called from a signal handler: in an emergency stop it is the next tick of the
-/// scheduler, whose thread still runs then, that writes zero.
+/// No function of the runtime may be called from a signal handler. In an emergency stop, therefore, the next tick of
+/// the scheduler, whose thread still runs, writes zero.
 ///
 /// Never run on hardware: written from the public interface and tested against a stub.
 class OpenHapticsDevice final : public HapticDevice {
@@ -56,7 +56,7 @@ class OpenHapticsDevice final : public HapticDevice {
   void write(const Eigen::Vector3d& force) noexcept override;
   void close() noexcept override;
   ServoClock* clock() noexcept override;
-  /// That the vendor documents no watchdog.
+  /// Warns that the vendor documents no watchdog.
   std::vector<std::string> warnings() const override;
   std::string advice() const override;
 
@@ -77,7 +77,7 @@ std::string openhaptics_error_name(std::uint32_t code);
 
 /// Whether the runtime is installed and complete, determined without opening a device.
 struct OpenHapticsRuntime {
-  bool found = false;   ///< it is installed and has every function that this library calls
+  bool found = false;   ///< the runtime is installed and has every function that this library calls
   std::string library;  ///< file name
   std::string advice;   ///< what to do if it was not found
 };

@@ -1,4 +1,4 @@
-// Lists the connected Phantoms, with a remedy for each that this user may not open.
+// Lists the connected Phantoms, with a remedy for those that this user may not open.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ struct PluggedDevice {
 /// For example "2988:0302 on bus 1, port 2, serial 540-12345".
 std::string describe_device(const PluggedDevice& device);
 
-/// All devices with the ids of a Phantom, sorted by bus and port. Does not open them where the system provides serial
-/// numbers without that, as Linux does. @throws DeviceError when the bus cannot be read
+/// All devices with the ids of a Phantom, sorted by bus and port. Does not open them if the system provides serial
+/// numbers without opening, as Linux does. @throws DeviceError when the bus cannot be read
 std::vector<PluggedDevice> plugged_devices();
 
 /// Device, configuration, interface and endpoint descriptors, and the report descriptor of a HID, each as hexadecimal

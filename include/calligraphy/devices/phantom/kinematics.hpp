@@ -32,17 +32,17 @@ struct JointLimits {
 /// Reality Haptics, TVCG 2009], s = 1 the Premium [facts from mahilab/Phantom, with the axes rotated and the origin
 /// moved to p = 0].
 struct Linkage {
-  double upper_arm = 0.0;    ///< its length l1 [m]
-  double forearm = 0.0;      ///< its length l2 [m]
+  double upper_arm = 0.0;    ///< length l1 [m]
+  double forearm = 0.0;      ///< length l2 [m]
   double waist_sense = 1.0;  ///< s: 1 or -1
-  JointLimits limits;        ///< beyond which the arm cannot turn
+  JointLimits limits;        ///< limits of its joints
   /// Origin of the device axes in this library, chosen so that the workspace box centred on it stays as far as possible
   /// from the joint limits. Not the vendor's origin. [m]
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
 };
 
-/// The linkage of a model: omni, touch or premium-1.5. The joint limits of the first two are published; none are for
-/// the Premium, so only its geometry limits it.
+/// The linkage of a model: omni, touch or premium-1.5. Joint limits are published for the first two only, so the
+/// Premium is limited by its geometry alone.
 /// @throws ValueError naming the unknown model and the available ones
 const Linkage& linkage(std::string_view model);
 
@@ -52,7 +52,7 @@ Eigen::Vector3d tip_position(const Linkage& linkage, const Joints& joints) noexc
 /// Jacobian dp/dq [m/rad].
 Eigen::Matrix3d tip_jacobian(const Linkage& linkage, const Joints& joints) noexcept;
 
-/// The pose that puts the tip at a position.
+/// The pose with the tip at a position.
 struct InverseKinematics {
   Joints joints = Joints::Zero();  ///< angles of waist, shoulder and elbow [rad]
   bool reachable = false;          ///< if false, the joints give the nearest pose along the ray from the shoulder

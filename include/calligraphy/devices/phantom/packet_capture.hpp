@@ -1,4 +1,4 @@
-// Raw packets of a device, from which a wire profile can be written.
+// Captures raw packets of a device, for writing a wire profile.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace calligraphy {
 
-/// When a capture ends: at whichever comes first.
+/// Ends of a capture; the first one reached applies.
 struct CaptureOptions {
   std::size_t transfers = 1000;          ///< ends after this many transfers
   double seconds = 10.0;                 ///< or after this time [s]
@@ -20,12 +20,12 @@ struct CaptureOptions {
 /// One transfer from the device: a bus packet of a serial device, a report of a HID.
 struct CapturedTransfer {
   double time = 0.0;             ///< since the device was opened [s]
-  std::vector<std::byte> bytes;  ///< as received; of a HID with numbered reports the number first
+  std::vector<std::byte> bytes;  ///< as received; with numbered reports of a HID, the number comes first
 };
 
-/// What a device has sent.
+/// The transfers received from a device.
 struct PacketCapture {
-  PluggedDevice device;                     ///< from which the transfers come
+  PluggedDevice device;                     ///< source of the transfers
   std::vector<CapturedTransfer> transfers;  ///< in the order of their arrival
 };
 

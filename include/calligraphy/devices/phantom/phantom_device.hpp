@@ -25,17 +25,17 @@ struct PhantomOptions {
   std::string wire_profile;       ///< name of a built-in profile, or a file as described in docs/wire-profile.md
   std::string model = "touch";    ///< omni, touch or premium-1.5: selects linkage and capabilities
   bool drive = true;              ///< false: positions only, the motors stay off
-  bool gravity = false;           ///< motors carry the weight of the arm given in the profile; otherwise the hand does
+  bool gravity = false;           ///< motors carry the weight of the arm, from the profile; otherwise the hand does
   double velocity_cutoff = 50.0;  ///< cut-off frequency of the velocity filter, 1 to 1000 [Hz]
   bool limit_heat = true;         ///< reduce the torque of warm motors; false: cut it off when they are too warm
   bool keep_calibration = false;  ///< the encoders are known to keep counting while the device is unplugged
   /// Real-time priority, 1 to 99, of the threads that carry reports and commands, if the system permits it; 0: normal
-  /// threads. One below the servo loop's, which must not wait for them.
+  /// threads. The default is one below the servo loop's, which must not wait for them.
   int priority = 79;
 };
 
-/// Also reads the profile. @throws FormatError or FileError for the profile, ValueError naming an option, or the lines
-/// that the profile lacks
+/// Checks the options, and reads the profile. @throws FormatError or FileError for the profile, ValueError naming an
+/// option, or the lines that the profile lacks
 void validate(const PhantomOptions& options);
 
 /// Counts since the device was opened.
@@ -47,12 +47,12 @@ struct PhantomStatistics {
   std::uint64_t skipped_bytes = 0;     ///< bytes of a stream that belonged to no frame
   std::uint64_t commands = 0;          ///< commands passed to the link
   std::uint64_t refused_commands = 0;  ///< commands that the link did not accept
-  std::uint64_t released = 0;          ///< times that the motors were switched off for lack of a command
+  std::uint64_t released = 0;          ///< number of times the motors were switched off for lack of a command
   std::array<std::uint64_t, device_fault_count> faults{};  ///< occurrences of each fault, by DeviceFault
   std::uint64_t transfers_failed = 0;                      ///< transfers that the bus did not complete
   std::uint64_t commands_replaced = 0;                     ///< commands superseded by a newer one before they were sent
-  std::uint64_t opened = 0;                                ///< times that the device was found
-  double warmest_motor = 0.0;  ///< estimated temperature: 0 cold, 1 the limit that it sustains indefinitely
+  std::uint64_t opened = 0;                                ///< number of times the device was found
+  double warmest_motor = 0.0;  ///< estimated temperature: 0 cold, 1 the highest it sustains indefinitely
 };
 
 /// The link's thread receives and checks reports; read() returns the newest. Every fault, however short, is reported
@@ -80,7 +80,7 @@ class PhantomDevice final : public HapticDevice {
   PhantomDevice(const PhantomDevice&) = delete;
   PhantomDevice& operator=(const PhantomDevice&) = delete;
 
-  /// Those of the model, with the rate of the profile and the velocity filter of the options.
+  /// Capabilities of the model, with the rate of the profile and the velocity filter of the options.
   const Capabilities& capabilities() const noexcept override;
   /// `stale` when no report has arrived since the last call. The velocity is computed from filtered joint velocities.
   DeviceState read() noexcept override;
@@ -93,7 +93,7 @@ class PhantomDevice final : public HapticDevice {
   /// answer, it is written directly to the node, which is not possible with hidapi-libusb.
   void cut_force() noexcept override;
 
-  /// Calibrates without the inkwell: the joints are at these angles [rad] at the next report.
+  /// Calibrates without the inkwell: takes the joints to be at these angles [rad] at the next report.
   /// @throws ValueError when an angle is not finite
   void calibrate(const phantom::Joints& joints);
 
@@ -114,7 +114,7 @@ class PhantomDevice final : public HapticDevice {
  private:
   class Core;
   std::unique_ptr<Core> core_;
-  std::optional<EmergencyStopEntry> entry_;  ///< while it is open
+  std::optional<EmergencyStopEntry> entry_;  ///< exists while the device is open
 };
 
 }  // namespace calligraphy

@@ -18,9 +18,9 @@ namespace calligraphy::phantom {
 
 /// Location of a number in a frame: contiguous bits of an integer of one to four bytes.
 struct Field {
-  int offset = 0;           ///< of the first byte of the integer, from 0
+  int offset = 0;           ///< offset of the first byte of the integer, from 0
   int bytes = 1;            ///< length of the integer, 1 to 4
-  int low_bit = 0;          ///< lowest of the bits within the integer; 0: the least significant one
+  int low_bit = 0;          ///< lowest bit within the integer; 0: the least significant one
   int bits = 8;             ///< number of bits
   bool big_endian = false;  ///< the first byte of the integer is the most significant one
   bool is_signed = false;   ///< two's complement over `bits`
@@ -35,7 +35,7 @@ struct Constant {
 
 /// A bit by which the device reports a fault.
 struct FaultBit {
-  DeviceFault fault = DeviceFault::runtime_error;  ///< what it stands for
+  DeviceFault fault = DeviceFault::runtime_error;  ///< fault that it stands for
   Field field;                                     ///< nonzero while the fault lasts
 };
 
@@ -55,7 +55,7 @@ struct Checksum {
 
 /// A motor's digital-to-analogue converter.
 struct DacField {
-  Field field;            ///< where its value is in a command
+  Field field;            ///< location of its value in a command
   std::int64_t zero = 0;  ///< the value for zero torque
 };
 
@@ -73,24 +73,24 @@ using PerJoint = std::array<Value, 3>;
 struct WireProfile {
   std::string name;     ///< of the device or the layout, for messages
   std::string source;   ///< where the layout comes from
-  std::string licence;  ///< of that source
+  std::string licence;  ///< licence of that source
 
   double rate = 1000.0;               ///< report rate [Hz]
-  Framing framing = Framing::packet;  ///< of both directions
+  Framing framing = Framing::packet;  ///< framing of both directions
   std::uint8_t report_code = 0;       ///< code of report frames, with serial framing
   std::uint8_t command_code = 0;      ///< code of command frames, with serial framing
 
   std::size_t report_size = 0;                    ///< device to host, without framing [bytes]
   PerJoint<Field> encoders;                       ///< incremental; they wrap at their width
-  PerJoint<std::optional<Field>> encoder_copies;  ///< redundant; a report in which one disagrees is corrupted
+  PerJoint<std::optional<Field>> encoder_copies;  ///< redundant; if one disagrees, the report is corrupted
   PerJoint<std::optional<Field>> gimbal;          ///< potentiometers of the pen, read only for checking
   PerJoint<std::optional<Field>> gimbal_copies;   ///< redundant, likewise
   std::vector<Field> buttons;                     ///< nonzero while pressed; the first is bit 0 of DeviceState::buttons
   std::optional<Field> docked;                    ///< the pen is in the inkwell
   std::optional<Field> sequence;                  ///< incremented with each report; wraps at its width
-  std::vector<FaultBit> faults;                   ///< faults that a report can tell
-  std::vector<Constant> expected;                 ///< a report in which one differs is corrupted
-  std::optional<Checksum> report_checksum;        ///< a report in which it differs is corrupted
+  std::vector<FaultBit> faults;                   ///< faults that a report can contain
+  std::vector<Constant> expected;                 ///< if one differs, the report is corrupted
+  std::optional<Checksum> report_checksum;        ///< if it differs, the report is corrupted
 
   std::size_t command_size = 0;           ///< host to device, without framing [bytes]
   PerJoint<std::optional<DacField>> dac;  ///< motor torques
@@ -106,7 +106,7 @@ struct WireProfile {
   std::optional<Eigen::Vector3d> counts_per_radian;  ///< encoder scale; negative if it counts against its joint
   std::optional<Eigen::Vector3d> docked_angles;      ///< joint angles in the inkwell [rad]
   std::optional<Eigen::Vector3d> torque_per_count;   ///< DAC scale; negative if the motor acts against its joint [N m]
-  std::optional<Eigen::Vector3d> continuous_torque;  ///< that each motor sustains indefinitely, at the joint [N m]
+  std::optional<Eigen::Vector3d> continuous_torque;  ///< torque that a motor sustains indefinitely, at the joint [N m]
   std::optional<Eigen::Vector2d> gravity;            ///< torques that hold the upper arm and the forearm level [N m]
 };
 
@@ -115,7 +115,7 @@ std::vector<std::string> wire_profile_names();
 
 /// A built-in profile. @throws ValueError naming the unknown profile and the available ones
 const WireProfile& wire_profile(std::string_view name);
-/// The file of a built-in profile, as a starting point for your own. @throws ValueError as above
+/// The text of a built-in profile, as a starting point for your own. @throws ValueError as above
 std::string_view wire_profile_text(std::string_view name);
 
 /// Reads and validates a profile in the text format of docs/wire-profile.md. `name` is used in error messages.
@@ -124,13 +124,13 @@ WireProfile read_wire_profile(std::istream& in, std::string_view name);
 /// Reads a file in this format. @throws FileError when it cannot be opened, FormatError as above
 WireProfile read_wire_profile(const std::string& path);
 
-/// Checks a profile for what no packet could satisfy. @throws ValueError naming the field and the value, for example
-/// outside its frame, overlapping, or not a number
+/// Checks a profile for contradictions that no packet could satisfy. @throws ValueError naming the field and the value,
+/// for example one outside its frame, overlapping another, or not a number
 void validate(const WireProfile& profile);
 
-/// The statements that the profile lacks for computing positions; empty: none.
+/// Statements missing from the profile for computing positions; empty if none.
 std::vector<std::string> missing_for_position(const WireProfile& profile);
-/// The statements that the profile lacks for computing forces; empty: none.
+/// Statements missing from the profile for computing forces; empty if none.
 std::vector<std::string> missing_for_force(const WireProfile& profile);
 
 }  // namespace calligraphy::phantom

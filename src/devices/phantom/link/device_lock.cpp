@@ -18,7 +18,7 @@ void DeviceLock::take(const PluggedDevice& device) {
   for (const std::string& node : device.nodes) {
     int descriptor = open(node.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0) descriptor = open(node.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0) continue;  // a user who may not read it cannot drive the device through it either
+    if (descriptor < 0) continue;  // a user who may not read the node cannot drive the device through it either
     nodes_.push_back({node, descriptor});
     if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) continue;
     const int error = errno;

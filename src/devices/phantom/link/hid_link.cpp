@@ -1,5 +1,6 @@
 // hidapi stores an error text per device without a lock. Concurrent reading and writing is nevertheless safe as long as
-// neither continues after a failure, so both stop until the reader has reopened the device or read once more, alone.
+// neither continues after a failure, so both stop until the reader has reopened the device or completed another read
+// alone.
 #include "hid_link.hpp"
 
 #include <hidapi.h>
@@ -101,7 +102,7 @@ void HidLink::command(std::span<const std::byte> packet) {
   if (write_failed_ || !write_report(packet)) refuse(wanted_, "the command was not accepted: the transfer failed");
 }
 
-/// Whether the locked hidraw node answers, and goes on answering for so long.
+/// Whether the locked hidraw node answers, and keeps answering for this long [s].
 bool HidLink::answers(const std::string& node, double seconds) noexcept {
   for (const double end = monotonic_seconds() + seconds;;) {
     if (stopping_ || !hidraw_answers(lock_.descriptor_of(node), wanted_)) return false;
@@ -123,8 +124,8 @@ void HidLink::connect() {
   if (!may_open(node)) refuse(place, permission_advice(node));
   if (path.empty()) refuse(place, "hidapi does not find it: unplug it and plug it in again");
   lock_.take(place);
-  // hidapi-hidraw 0.13.1 frees a wild pointer if the device vanishes while it opens the node: an unplug may follow a
-  // plug that is not all the way in.
+  // hidapi-hidraw 0.13.1 frees a wild pointer if the device vanishes while it opens the node: a plug not pushed all the
+  // way in may be unplugged again at once.
   if (through_hidraw_ && !answers(path, opened_at_ > 0.0 ? options_.settle : 0.0)) {
     lock_.release();
     refuse(place, path + " does not answer: it is being unplugged");
@@ -147,7 +148,7 @@ void HidLink::connect() {
 
 void HidLink::start() noexcept {
   last_received_ = monotonic_seconds();
-  told_ = DeviceFault::none;
+  notified_ = DeviceFault::none;
   listener_->changed(DeviceFault::none);
 }
 
@@ -192,7 +193,7 @@ void HidLink::read_reports() noexcept {
       failed_.fetch_add(size < 0 ? 1 : 0, std::memory_order_relaxed);
       break;
     }
-    if (write_failed_) tell(DeviceFault::link_error);
+    if (write_failed_) notify(DeviceFault::link_error);
     if (resumes) {
       opened_at_ = monotonic_seconds();
       write_failed_ = false;
@@ -200,11 +201,11 @@ void HidLink::read_reports() noexcept {
     }
     if (size > 0) {
       last_received_ = monotonic_seconds();
-      tell(DeviceFault::none);
+      notify(DeviceFault::none);
       received_.fetch_add(1, std::memory_order_relaxed);
       listener_->received(std::as_bytes(std::span<const unsigned char>(report.data(), static_cast<std::size_t>(size))));
     } else if (monotonic_seconds() - last_received_ >= options_.silence) {
-      tell(DeviceFault::timed_out);
+      notify(DeviceFault::timed_out);
     }
   }
   if (stopping_) return;
@@ -216,10 +217,10 @@ void HidLink::reopen() noexcept {
   try {
     connect();
     // hidapi does not report why a transfer failed: a device that reopens immediately had an error, any other is gone.
-    if (told_ != DeviceFault::unplugged) tell(DeviceFault::link_error);
+    if (notified_ != DeviceFault::unplugged) notify(DeviceFault::link_error);
     start();
   } catch (const std::exception&) {
-    if (!stopping_) tell(DeviceFault::unplugged);
+    if (!stopping_) notify(DeviceFault::unplugged);
     for (const double end = monotonic_seconds() + options_.search; monotonic_seconds() < end && !stopping_;) {
       std::this_thread::sleep_for(std::chrono::milliseconds(max_read));
     }
@@ -253,7 +254,7 @@ bool HidLink::write_report(std::span<const std::byte> packet) noexcept {
   return true;
 }
 
-/// write() to a hidraw node returns when the device has taken the report, after 5 s at the latest.
+/// A write() to a hidraw node returns when the device has accepted the report, after 5 s at the latest.
 void HidLink::write_directly(std::span<const std::byte> packet) noexcept {
   const int node = raw_node_;
   if (node < 0) return;

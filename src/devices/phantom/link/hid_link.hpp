@@ -48,20 +48,20 @@ class HidLink final : public ThreadedLink {
 
   /// Lives as long as the link: creating it for every search would cost a thread and a socket.
   UsbEvents bus_;
-  std::thread writer_;  ///< beside the link's own thread, which reads
+  std::thread writer_;  ///< in addition to the link's own thread, which reads
   std::atomic<bool> writer_stops_{false};
 
-  /// The reader holds it to exchange `device_`, not to read; the writer holds it while it writes.
+  /// Held by the reader to exchange `device_`, but not to read, and by the writer while it writes.
   std::mutex device_mutex_;
   DeviceLock lock_;  ///< held while the device is open: hidraw itself would let several programs open it
   hid_device_* device_ = nullptr;
-  /// The hidraw node once more, for write_directly(); -1: not open, or hidapi-libusb, which hides its descriptor.
+  /// A second descriptor of the hidraw node, for write_directly(); -1: not open, or hidapi-libusb, which hides it.
   std::atomic<int> raw_node_{-1};
-  bool through_hidraw_ = false;            ///< this program is linked to hidapi-hidraw
+  bool through_hidraw_ = false;            ///< this program is linked with hidapi-hidraw
   std::atomic<bool> numbered_{false};      ///< reports begin with a report number
-  std::atomic<bool> write_failed_{false};  ///< nothing more is written until the reader permits it
+  std::atomic<bool> write_failed_{false};  ///< nothing is written until the reader permits it again
   WakeUp bell_;
-  double opened_at_ = 0.0;  ///< or resumed after a failed write; by monotonic_seconds()
+  double opened_at_ = 0.0;  ///< time of opening, or of resuming after a failed write, by monotonic_seconds()
 };
 
 /// The device path as given by hidapi, which depends on the variant that the program links; empty if hidapi does not

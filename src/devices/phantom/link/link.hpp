@@ -23,8 +23,8 @@ class LinkListener {
   /// failure; `timed_out` is repeated about once a second while it persists.
   virtual void changed(DeviceFault fault) noexcept = 0;
 
-  /// The packet that takes the force from the motors, constant while the link is open: Link::cut_force() sends it. Also
-  /// called from signal handlers. Empty: there is none.
+  /// The packet that sets the motors' force to zero, sent by Link::cut_force(); constant while the link is open, empty
+  /// if there is none. Also called from signal handlers.
   virtual std::span<const std::byte> stop_packet() const noexcept { return {}; }
 };
 
@@ -34,7 +34,7 @@ struct LinkCounts {
   std::uint64_t sent = 0;
   std::uint64_t replaced = 0;  ///< outgoing packets superseded by a newer one
   std::uint64_t failed = 0;    ///< transfers that ended in an error
-  std::uint64_t opened = 0;    ///< times that the device was found, including the first
+  std::uint64_t opened = 0;    ///< number of times the device was found, including the first
 };
 
 /// Connection to a device on a bus, served by its own thread. It survives unplugging, finds the device by its serial

@@ -38,7 +38,7 @@ bool ThreadedLink::send(std::span<const std::byte> packet) noexcept {
   return true;
 }
 
-/// A stop packet that the link's own thread writes follows every packet that it was writing.
+/// If the link's own thread writes the stop packet, it comes after any packet that the thread was writing.
 void ThreadedLink::cut_force() noexcept {
   if (listener_ == nullptr || listener_->stop_packet().empty()) return;
   const std::uint32_t before = cuts_.load();
@@ -78,12 +78,12 @@ void ThreadedLink::found_at(const PluggedDevice& place) {
   opened_.fetch_add(1, std::memory_order_relaxed);
 }
 
-void ThreadedLink::tell(DeviceFault fault) noexcept {
+void ThreadedLink::notify(DeviceFault fault) noexcept {
   const double now = monotonic_seconds();
-  const bool again = fault == DeviceFault::timed_out && now - told_at_ >= options_.silence;
-  if (fault == told_ && !again) return;
-  told_ = fault;
-  told_at_ = now;
+  const bool again = fault == DeviceFault::timed_out && now - notified_at_ >= options_.silence;
+  if (fault == notified_ && !again) return;
+  notified_ = fault;
+  notified_at_ = now;
   listener_->changed(fault);
 }
 

@@ -1,4 +1,4 @@
-// What links over any bus share: the thread that serves the device, what was told of it, and its counts.
+// Base of links over any bus: the thread that serves the device, the faults notified, and the counts.
 #pragma once
 
 #include <atomic>
@@ -17,7 +17,7 @@
 
 namespace calligraphy::phantom {
 
-/// A link joins its thread in its own destructor, while all that the thread uses is still there.
+/// Derived classes must join the thread in their destructor, while everything that the thread uses still exists.
 class ThreadedLink : public Link {
  public:
   ThreadedLink(const PluggedDevice& device, const LinkOptions& options);
@@ -31,31 +31,31 @@ class ThreadedLink : public Link {
   const std::string& serial() const noexcept override { return wanted_.serial; }
 
  protected:
-  /// The thread, until `stopping_`. Says by `opened` whether the device could be opened the first time, and ends when
-  /// it could not; the listener has heard of it by then.
+  /// Body of the thread: runs until `stopping_`. Reports through `opened` whether the device could be opened the first
+  /// time, and returns if not; the listener has been notified by then.
   virtual void run(std::promise<void> opened) noexcept = 0;
 
-  /// A packet waits. From any thread; neither blocks nor allocates.
+  /// Wakes the thread because a packet is waiting. Callable from any thread; neither blocks nor allocates.
   virtual void wake() noexcept = 0;
 
-  /// Writes the packet by the lowest call of the system, if the bus permits it: for a link whose thread does not
-  /// answer, because it is the one that crashed. Async-signal-safe.
+  /// Writes the packet by the lowest-level system call, if the bus permits it, in case the link's thread does not
+  /// answer because it is the one that crashed. Async-signal-safe.
   virtual void write_directly(std::span<const std::byte> packet) noexcept = 0;
 
-  /// The packet to be written next: the newest, or the stop packet in an emergency stop; null if there is none. For the
-  /// thread that writes.
+  /// The packet to write next: the newest, or the stop packet in an emergency stop; null if there is none. Call from
+  /// the writing thread only.
   const Packet* next_packet() noexcept;
   bool packet_waits() const noexcept { return newest_.waiting() || cut_wanted_.load(std::memory_order_relaxed); }
-  /// That thread has written what next_packet() returned.
+  /// Call when the packet from next_packet() has been written.
   void packet_written(const Packet& packet) noexcept;
 
   void join();
 
-  /// The device was opened, here.
+  /// Records where the device was opened.
   void found_at(const PluggedDevice& place);
 
-  /// What has changed, once; `timed_out` again after another silence.
-  void tell(DeviceFault fault) noexcept;
+  /// Notifies the listener of a change, once; of `timed_out` again after another silence.
+  void notify(DeviceFault fault) noexcept;
 
   /// @throws DeviceError for a command that is longer than a link can hold
   void check_command(std::span<const std::byte> packet) const;
@@ -66,17 +66,17 @@ class ThreadedLink : public Link {
   std::vector<std::string> warnings_;
   std::thread thread_;
   std::atomic<bool> stopping_{false};
-  DeviceFault told_ = DeviceFault::none;
+  DeviceFault notified_ = DeviceFault::none;
   double last_received_ = 0.0;  ///< by monotonic_seconds()
   std::atomic<std::uint64_t> received_{0}, sent_{0}, replaced_{0}, failed_{0}, opened_{0};
 
  private:
   NewestPacket newest_;
-  Packet stop_packet_;  ///< used by the thread that writes
+  Packet stop_packet_;  ///< used by the writing thread
   std::atomic<bool> cut_wanted_{false};
   std::atomic<std::uint32_t> cuts_{0};   ///< stop packets written
-  double told_at_ = 0.0;                 ///< by monotonic_seconds()
-  std::list<std::string> descriptions_;  ///< of every place it was found at, kept for those who hold one
+  double notified_at_ = 0.0;             ///< by monotonic_seconds()
+  std::list<std::string> descriptions_;  ///< one per place where it was found, kept because callers hold references
   std::atomic<const std::string*> description_{nullptr};
 };
 

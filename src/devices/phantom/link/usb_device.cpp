@@ -42,7 +42,7 @@ std::string asked_serial(libusb_device* device, std::uint8_t index) {
 
 std::string words(int result) { return libusb_strerror(static_cast<libusb_error>(result)); }
 
-/// Referenced, so that it outlives the list in which it was found.
+/// Holds a reference, so that the device outlives the list in which it was found.
 using FoundDevice = std::unique_ptr<libusb_device, void (*)(libusb_device*)>;
 
 FoundDevice find(libusb_context* context, const PluggedDevice& wanted, PluggedDevice& place) {
@@ -161,7 +161,7 @@ void UsbDevice::claim_interfaces() {
   }
 }
 
-/// A stall is accepted: a device without a serial line to configure rejects the request.
+/// Accepts a stall: a device without a serial line to configure rejects the request.
 bool UsbDevice::control(unsigned char request, unsigned value, unsigned char* data, int size) {
   const int result = libusb_control_transfer(
       handle_, class_request_to_interface, request, static_cast<std::uint16_t>(value),

@@ -65,7 +65,7 @@ void UsbLink::run(std::promise<void> opened) noexcept {
   thread_id_ = std::this_thread::get_id();
   warnings_ = set_real_time_priority(options_.priority);
   libusb_hotplug_callback_handle hotplug = 0;
-  const bool told_of_plugging =
+  const bool has_hotplug =
       libusb_hotplug_register_callback(
           events_.context(), LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT, 0,
           wanted_.vendor_id, wanted_.product_id, LIBUSB_HOTPLUG_MATCH_ANY, plugged, this, &hotplug) == LIBUSB_SUCCESS;
@@ -81,16 +81,16 @@ void UsbLink::run(std::promise<void> opened) noexcept {
     opened.set_exception(std::current_exception());
   }
   disconnect();
-  if (told_of_plugging) libusb_hotplug_deregister_callback(events_.context(), hotplug);
+  if (has_hotplug) libusb_hotplug_deregister_callback(events_.context(), hotplug);
 }
 
 void UsbLink::serve() noexcept {
   if (gone_) {
     disconnect();
-    tell_listener(DeviceFault::unplugged);
+    notify_listener(DeviceFault::unplugged);
   }
-  if (device_.handle() == nullptr && monotonic_seconds() >= look_again_) {
-    look_again_ = monotonic_seconds() + options_.search;
+  if (device_.handle() == nullptr && monotonic_seconds() >= search_again_) {
+    search_again_ = monotonic_seconds() + options_.search;
     try {
       connect();
     } catch (const std::exception&) {
@@ -100,7 +100,7 @@ void UsbLink::serve() noexcept {
   }
   if (device_.handle() != nullptr && !gone_) {
     recover();
-    tell_where_it_stands();
+    notify_of_state();
   }
   run_request();
   send_newest();
@@ -114,8 +114,8 @@ double UsbLink::max_wait() const noexcept {
 
 void UsbLink::connect() {
   device_.open(events_.context(), wanted_);
-  gone_ = holding_ = in_stalled_ = out_stalled_ = in_flows_ = false;
-  in_fault_ = out_fault_ = told_ = DeviceFault::none;
+  gone_ = holding_ = in_stalled_ = out_stalled_ = in_resumed_ = false;
+  in_fault_ = out_fault_ = notified_ = DeviceFault::none;
   retry_in_ = retry_out_ = 0.0;
   kept_count_ = 0;
   for (Inward& inward : inward_) {
@@ -131,9 +131,9 @@ void UsbLink::connect() {
   raw_endpoint_ = device_.out_endpoint();
   raw_node_ = events_.device_descriptor();
   found_at(device_.place());
-  telling_ = true;
+  notifying_ = true;
   listener_->changed(DeviceFault::none);
-  telling_ = false;
+  notifying_ = false;
   last_received_ = monotonic_seconds();
   for (Inward& inward : inward_) submit(inward);
 }
@@ -142,19 +142,19 @@ void UsbLink::disconnect() noexcept {
   if (device_.handle() == nullptr) return;
   raw_node_ = -1;
   cancel_inward();
-  if (outward_.flying) libusb_cancel_transfer(outward_.transfer);
+  if (outward_.pending) libusb_cancel_transfer(outward_.transfer);
   pump_until(&UsbLink::outward_idle, max_cancel);
   device_.close(!gone_);
   // Closing the device has removed any transfer that has not completed from libusb's list.
   for (Inward& inward : inward_) {
     libusb_free_transfer(inward.transfer);
     inward.transfer = nullptr;
-    inward.flying = inward.kept = false;
+    inward.pending = inward.kept = false;
   }
   libusb_free_transfer(outward_.transfer);
   outward_ = {};
   gone_ = false;
-  look_again_ = 0.0;
+  search_again_ = 0.0;
 }
 
 void UsbLink::recover() noexcept {
@@ -166,7 +166,7 @@ void UsbLink::recover() noexcept {
     if (in_fault_ == DeviceFault::stalled) retry_in_ = monotonic_seconds() + pause_after_error;
     in_stalled_ = false;
     in_fault_ = DeviceFault::stalled;
-    in_flows_ = false;
+    in_resumed_ = false;
   }
   if (out_stalled_) {
     clear_halt(device_.out_endpoint());
@@ -176,7 +176,7 @@ void UsbLink::recover() noexcept {
   }
   if (gone_ || monotonic_seconds() < retry_in_) return;
   for (Inward& inward : inward_) {
-    if (!inward.flying && !inward.kept) submit(inward);
+    if (!inward.pending && !inward.kept) submit(inward);
   }
 }
 
@@ -185,32 +185,32 @@ void UsbLink::clear_halt(unsigned char endpoint) noexcept {
 }
 
 /// Notifies the listener of a fault even if packets are arriving again, and delivers those packets only afterwards.
-void UsbLink::tell_where_it_stands() noexcept {
+void UsbLink::notify_of_state() noexcept {
   if (gone_) return;
-  tell_listener(in_fault_ != DeviceFault::none ? in_fault_ : out_fault_);
-  if (in_fault_ != DeviceFault::none && in_flows_) {
+  notify_listener(in_fault_ != DeviceFault::none ? in_fault_ : out_fault_);
+  if (in_fault_ != DeviceFault::none && in_resumed_) {
     in_fault_ = DeviceFault::none;
-    in_flows_ = false;
-    tell_listener(out_fault_);
+    in_resumed_ = false;
+    notify_listener(out_fault_);
   }
   if (in_fault_ != DeviceFault::none) return;
   for (std::size_t i = 0; i < kept_count_; ++i) {
     kept_[i]->kept = false;
-    hand_on(*kept_[i]);
+    deliver(*kept_[i]);
     submit(*kept_[i]);
   }
   kept_count_ = 0;
 }
 
-void UsbLink::tell_listener(DeviceFault fault) noexcept {
-  telling_ = true;
-  tell(fault);
-  telling_ = false;
+void UsbLink::notify_listener(DeviceFault fault) noexcept {
+  notifying_ = true;
+  notify(fault);
+  notifying_ = false;
 }
 
 // ---- from the device
 
-void UsbLink::hand_on(const Inward& inward) noexcept {
+void UsbLink::deliver(const Inward& inward) noexcept {
   received_.fetch_add(1, std::memory_order_relaxed);
   listener_->received(std::as_bytes(
       std::span<const unsigned char>(inward.buffer.data(), static_cast<std::size_t>(inward.transfer->actual_length))));
@@ -219,7 +219,7 @@ void UsbLink::hand_on(const Inward& inward) noexcept {
 void UsbLink::submit(Inward& inward) noexcept {
   if (holding_ || gone_) return;
   const int result = libusb_submit_transfer(inward.transfer);
-  inward.flying = result == LIBUSB_SUCCESS;
+  inward.pending = result == LIBUSB_SUCCESS;
   if (result == LIBUSB_ERROR_NO_DEVICE) {
     gone_ = true;
   } else if (result != LIBUSB_SUCCESS) {
@@ -231,26 +231,26 @@ void UsbLink::submit(Inward& inward) noexcept {
 
 void UsbLink::inward_failed(DeviceFault fault) noexcept {
   in_fault_ = fault;
-  in_flows_ = false;
+  in_resumed_ = false;
 }
 
 void UsbLink::inward_done(libusb_transfer* transfer) noexcept {
   Inward& inward = *static_cast<Inward*>(transfer->user_data);
   UsbLink& link = *inward.link;
-  inward.flying = false;
+  inward.pending = false;
   if (transfer->status != LIBUSB_TRANSFER_COMPLETED && transfer->status != LIBUSB_TRANSFER_CANCELLED) {
     link.failed_.fetch_add(1, std::memory_order_relaxed);
   }
   switch (transfer->status) {
     case LIBUSB_TRANSFER_COMPLETED:
       link.last_received_ = monotonic_seconds();
-      link.in_flows_ = link.in_fault_ != DeviceFault::none;
-      if (link.telling_ || link.in_fault_ != DeviceFault::none || link.in_stalled_ || link.kept_count_ > 0) {
+      link.in_resumed_ = link.in_fault_ != DeviceFault::none;
+      if (link.notifying_ || link.in_fault_ != DeviceFault::none || link.in_stalled_ || link.kept_count_ > 0) {
         inward.kept = true;
         link.kept_[link.kept_count_++] = &inward;
         return;
       }
-      link.hand_on(inward);
+      link.deliver(inward);
       link.submit(inward);
       return;
     case LIBUSB_TRANSFER_CANCELLED:
@@ -285,19 +285,19 @@ void UsbLink::inward_done(libusb_transfer* transfer) noexcept {
 void UsbLink::cancel_inward() noexcept {
   holding_ = true;
   for (Inward& inward : inward_) {
-    if (inward.flying) libusb_cancel_transfer(inward.transfer);
+    if (inward.pending) libusb_cancel_transfer(inward.transfer);
   }
   pump_until(&UsbLink::inward_idle, max_cancel);
 }
 
 bool UsbLink::inward_idle() const noexcept {
-  return std::none_of(inward_.begin(), inward_.end(), [](const Inward& inward) { return inward.flying; });
+  return std::none_of(inward_.begin(), inward_.end(), [](const Inward& inward) { return inward.pending; });
 }
 
 // ---- to the device
 
 void UsbLink::send_newest() noexcept {
-  if (device_.handle() == nullptr || gone_ || outward_.flying || out_stalled_ || monotonic_seconds() < retry_out_)
+  if (device_.handle() == nullptr || gone_ || outward_.pending || out_stalled_ || monotonic_seconds() < retry_out_)
     return;
   if (const Packet* packet = next_packet()) {
     std::copy_n(reinterpret_cast<const unsigned char*>(packet->bytes.data()), packet->size, outward_.buffer.data());
@@ -316,7 +316,7 @@ void UsbLink::submit_outward() noexcept {
   libusb_fill_bulk_transfer(outward_.transfer, device_.handle(), device_.out_endpoint(), outward_.buffer.data(),
                             static_cast<int>(outward_.size), outward_done, this, milliseconds(options_.answer));
   const int result = libusb_submit_transfer(outward_.transfer);
-  outward_.flying = result == LIBUSB_SUCCESS;
+  outward_.pending = result == LIBUSB_SUCCESS;
   outward_.refused = true;
   if (result == LIBUSB_ERROR_NO_DEVICE) {
     outward_.ended = LIBUSB_TRANSFER_NO_DEVICE;
@@ -331,7 +331,7 @@ void UsbLink::submit_outward() noexcept {
 
 void UsbLink::outward_done(libusb_transfer* transfer) noexcept {
   UsbLink& link = *static_cast<UsbLink*>(transfer->user_data);
-  link.outward_.flying = false;
+  link.outward_.pending = false;
   link.outward_.ended = transfer->status;
   if (transfer->status == LIBUSB_TRANSFER_COMPLETED) {
     link.sent_.fetch_add(1, std::memory_order_relaxed);
@@ -367,7 +367,7 @@ void UsbLink::run_request() noexcept {
 void UsbLink::transmit(std::span<const std::byte> packet) {
   pump_until(&UsbLink::outward_idle, options_.answer);
   if (device_.handle() == nullptr || gone_) refuse(wanted_, "the command was not sent: it is not plugged in");
-  if (outward_.flying)
+  if (outward_.pending)
     refuse(device_.place(), "the command was not sent: the device has not accepted the previous packet");
   std::copy_n(reinterpret_cast<const unsigned char*>(packet.data()), packet.size(), outward_.buffer.data());
   outward_.packet = nullptr;
@@ -375,13 +375,14 @@ void UsbLink::transmit(std::span<const std::byte> packet) {
   submit_outward();
   pump_until(&UsbLink::outward_idle, 2.0 * options_.answer);
   outward_.refused = false;  // repeating a command is up to the caller
-  if (outward_.flying || outward_.ended != LIBUSB_TRANSFER_COMPLETED) {
-    refuse(device_.place(), std::string("the command was not accepted: ") +
-                                (outward_.flying ? "the device did not accept it in time" : to_string(outward_.ended)));
+  if (outward_.pending || outward_.ended != LIBUSB_TRANSFER_COMPLETED) {
+    refuse(device_.place(),
+           std::string("the command was not accepted: ") +
+               (outward_.pending ? "the device did not accept it in time" : to_string(outward_.ended)));
   }
 }
 
-/// Follows a transfer that is pending.
+/// The packet is sent after any pending transfer.
 void UsbLink::write_directly(std::span<const std::byte> packet) noexcept {
   const int node = raw_node_;
   if (node < 0) return;
@@ -400,7 +401,7 @@ void UsbLink::write_directly(std::span<const std::byte> packet) noexcept {
 /// Sends the last packet of a servo loop, which sets the force to zero.
 void UsbLink::flush() noexcept {
   const auto end = monotonic_seconds() + max_flush;
-  while ((packet_waits() || outward_.flying) && device_.handle() != nullptr && !gone_ && monotonic_seconds() < end) {
+  while ((packet_waits() || outward_.pending) && device_.handle() != nullptr && !gone_ && monotonic_seconds() < end) {
     send_newest();
     events_.wait(0.005);
   }
@@ -414,7 +415,7 @@ void UsbLink::pump_until(bool (UsbLink::*reached)() const noexcept, double secon
 int UsbLink::plugged(libusb_context*, libusb_device* device, libusb_hotplug_event event, void* self) noexcept {
   UsbLink& link = *static_cast<UsbLink*>(self);
   if (event == LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED) {
-    link.look_again_ = 0.0;
+    link.search_again_ = 0.0;
   } else if (link.device_.handle() != nullptr && libusb_get_device(link.device_.handle()) == device) {
     link.gone_ = true;
   }

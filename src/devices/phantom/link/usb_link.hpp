@@ -13,9 +13,9 @@
 
 namespace calligraphy::phantom {
 
-/// Four transfers are pending at any time, so the host never misses a packet of the device. libusb is called only from
-/// the link's own thread (in an emergency stop in which that thread does not answer, its descriptor is used directly);
-/// its callbacks record what happened, and the thread acts on it between callbacks.
+/// Four transfers are always pending, so the host never misses a packet from the device. libusb is called only from the
+/// link's own thread (if that thread does not answer in an emergency stop, its descriptor is used directly); its
+/// callbacks record what happened, and the thread acts on it between callbacks.
 class UsbLink final : public ThreadedLink {
  public:
   /// @throws DeviceError when libusb cannot be initialised
@@ -30,22 +30,22 @@ class UsbLink final : public ThreadedLink {
   struct Inward {
     UsbLink* link = nullptr;
     libusb_transfer* transfer = nullptr;
-    bool flying = false;
+    bool pending = false;
     bool kept = false;  ///< its packet is held back until the listener has been notified of a change
     std::array<unsigned char, max_packet_bytes> buffer = {};
   };
   /// The transfer to the device.
   struct Outward {
     libusb_transfer* transfer = nullptr;
-    bool flying = false;
+    bool pending = false;
     libusb_transfer_status ended = LIBUSB_TRANSFER_COMPLETED;
-    const Packet* packet = nullptr;  ///< that next_packet() returned; null for a command
+    const Packet* packet = nullptr;  ///< from next_packet(); null for a command
     std::size_t size = 0;
     double filled = 0.0;   ///< when its packet was taken from the queue [s]
     bool refused = false;  ///< its packet has not been transferred yet
     std::array<unsigned char, max_packet_bytes> buffer = {};
   };
-  /// A packet of command() from another thread.
+  /// A packet from command() in another thread.
   struct Request {
     Packet packet;
     std::promise<void> done;
@@ -64,16 +64,16 @@ class UsbLink final : public ThreadedLink {
   void transmit(std::span<const std::byte> packet);
   void flush() noexcept;
 
-  void tell_listener(DeviceFault fault) noexcept;
-  void tell_where_it_stands() noexcept;
-  void hand_on(const Inward& inward) noexcept;
+  void notify_listener(DeviceFault fault) noexcept;
+  void notify_of_state() noexcept;
+  void deliver(const Inward& inward) noexcept;
   void submit(Inward& inward) noexcept;
   void submit_outward() noexcept;
   void inward_failed(DeviceFault fault) noexcept;
   void cancel_inward() noexcept;
 
   bool inward_idle() const noexcept;
-  bool outward_idle() const noexcept { return !outward_.flying; }
+  bool outward_idle() const noexcept { return !outward_.pending; }
   void pump_until(bool (UsbLink::*reached)() const noexcept, double seconds) noexcept;
   double max_wait() const noexcept;
 
@@ -95,18 +95,18 @@ class UsbLink final : public ThreadedLink {
 
   // Recorded by the callbacks, and the state of both directions.
   bool gone_ = false;
-  bool holding_ = false;  ///< nothing is resubmitted
-  bool telling_ = false;  ///< the listener is being notified, and may be sending a command
+  bool holding_ = false;    ///< nothing is resubmitted
+  bool notifying_ = false;  ///< the listener is being notified, and may be sending a command
   bool in_stalled_ = false;
   bool out_stalled_ = false;
-  bool in_flows_ = false;  ///< a packet has arrived since the fault
+  bool in_resumed_ = false;  ///< a packet has arrived since the fault
   DeviceFault in_fault_ = DeviceFault::none;
   DeviceFault out_fault_ = DeviceFault::none;
-  double retry_in_ = 0.0;  ///< these by monotonic_seconds()
+  double retry_in_ = 0.0;  ///< this and the next two by monotonic_seconds()
   double retry_out_ = 0.0;
-  double look_again_ = 0.0;
+  double search_again_ = 0.0;
 
-  std::mutex command_mutex_;  ///< one command at a time
+  std::mutex command_mutex_;  ///< allows one command at a time
   std::atomic<Request*> request_{nullptr};
 };
 

@@ -19,7 +19,6 @@ class WakeUp {
 
   /// For your own poll(): readable once it was rung.
   int descriptor() const noexcept { return descriptor_; }
-  /// Resets it.
   void clear() noexcept;
 
  private:

@@ -27,10 +27,10 @@ struct RawCommand {
   bool motors_on = false;
   bool toggle = false;
   bool dock_light = false;
-  DeviceFault fault = DeviceFault::none;  ///< set by decoding an invalid frame
+  DeviceFault fault = DeviceFault::none;  ///< set when decoding an invalid frame
 };
 
-/// Whether the frame was valid: there is no fault, or only one reported by the device.
+/// Whether the frame was valid: no fault, or only one reported by the device.
 bool is_readable(DeviceFault fault) noexcept;
 
 /// Codec for both directions of a profile. Accepts arbitrary bytes and does not allocate after construction.

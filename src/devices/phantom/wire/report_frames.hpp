@@ -38,7 +38,6 @@ class ReportFrames {
   void reset() noexcept { serial_.reset(); }
   std::uint64_t skipped_bytes() const noexcept { return serial_.skipped(); }
 
-  /// The packet of a command.
   std::span<const std::byte> wrap(const RawCommand& command,
                                   std::span<std::byte, max_framed_bytes> packet) const noexcept {
     if (!is_serial_) return packet.first(codec_.encode_command(command, packet));

@@ -48,7 +48,7 @@ class FrameCheck {
     }
   }
 
-  /// Overlaps no other field and has one bit.
+  /// Checks a field that must have one bit and overlap no other field.
   void flag(const Field& field, const std::string& name) {
     alone(field, name);
     require(field.bits == 1, name + ": number of bits", field.bits, "", "1");
@@ -84,7 +84,7 @@ class FrameCheck {
 
   const char* frame_;
   std::size_t size_;
-  std::vector<std::string> taken_;  ///< by bit of the frame
+  std::vector<std::string> taken_;  ///< name of the field at each bit of the frame
 };
 
 void validate_report(const WireProfile& profile) {
@@ -152,7 +152,7 @@ void validate_command(const WireProfile& profile) {
   if (profile.command_checksum) check.checksum(*profile.command_checksum, "command-checksum");
 }
 
-/// Checks each of the values, if there are any; NaN fails too.
+/// Checks each value, if there are any; NaN fails too.
 template <class Values>
 void require_sizes(const std::optional<Values>& values, const char* name, const char* unit, double least, double most,
                    const char* domain) {

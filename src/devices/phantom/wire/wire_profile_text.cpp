@@ -25,7 +25,7 @@ LineKind kind_of(std::string_view key) {
   return key == "name" || key == "source" || key == "licence" ? LineKind::text : LineKind::words;
 }
 
-/// "link-error" for DeviceFault::link_error; none if there is no such fault.
+/// "link-error" for DeviceFault::link_error; empty if there is no such fault.
 std::optional<DeviceFault> fault_of(std::string_view word) {
   for (auto fault = DeviceFault::unplugged; fault <= DeviceFault::late_clock;
        fault = static_cast<DeviceFault>(static_cast<int>(fault) + 1)) {
@@ -250,7 +250,7 @@ class Parser : private LineReader {
       } else if (option == "inverted") {
         field.inverted = true;
       } else {
-        set_left(rest);  // of the statement, not of the field
+        set_left(rest);  // rest of the statement, not of the field
         break;
       }
     }
