@@ -230,7 +230,7 @@ void denormal_ticks(benchmark::State& state, bool flush) {
     }
     return nanoseconds(Clock::now() - start);
   };
-  std::optional<FlushDenormals> as_a_servo_thread;
+  std::optional<detail::FlushDenormals> as_a_servo_thread;
   if (flush) as_a_servo_thread.emplace();
   std::vector<double> ratios;
   for (auto _ : state) {

@@ -32,8 +32,8 @@ void ActiveStroke::load(const Stroke& stroke, const Placement& placement) {
   for (const StrokeElement& element : elements) {
     const std::size_t i = parts_.size();
     const double end = arc + element.length();
-    parts_.push_back(
-        {element, end_plane(element), arc, end, stroke.attraction_factors[i], stroke.attraction_factors[i + 1]});
+    parts_.push_back({element, detail::end_plane(element), arc, end, stroke.attraction_factors[i],
+                      stroke.attraction_factors[i + 1]});
     arc = end;
   }
   reload();

@@ -202,7 +202,7 @@ double CurveElement::parameter_at(double arc_length) const noexcept {
   return (static_cast<double>(above - arc.begin() - 1) + share) / arc_intervals;
 }
 
-CurveElement prepare_curve(std::span<const Point> control_points) noexcept {
+CurveElement detail::prepare_curve(std::span<const Point> control_points) noexcept {
   CurveElement curve;
   curve.degree = static_cast<int>(control_points.size()) - 1;
   curve.origin = control_points[0];

@@ -25,7 +25,7 @@ LineElement unusable_element() {
 
 }  // namespace
 
-LineElement prepare_line(const Point& start, const Point& end) noexcept {
+LineElement detail::prepare_line(const Point& start, const Point& end) noexcept {
   LineElement line;
   line.origin = start;
   line.edge = end - start;
@@ -43,9 +43,9 @@ StrokeElement prepare_element(std::span<const Point> control_points) noexcept {
     });
   };
   if (!all_within(max_element)) return {unusable_element()};
-  if (all_within(min_curve)) return {prepare_line(start, start)};
-  if (control_points.size() == 2) return {prepare_line(start, control_points.back())};
-  return {prepare_curve(control_points)};
+  if (all_within(min_curve)) return {detail::prepare_line(start, start)};
+  if (control_points.size() == 2) return {detail::prepare_line(start, control_points.back())};
+  return {detail::prepare_curve(control_points)};
 }
 
 std::vector<StrokeElement> place_elements(const Stroke& stroke, const Placement& placement) {

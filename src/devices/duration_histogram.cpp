@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-namespace calligraphy {
+namespace calligraphy::detail {
 namespace {
 
 constexpr int leading_bits = 7;
@@ -72,4 +72,4 @@ DurationSummary DurationHistogram::summary() const noexcept {
   return result;
 }
 
-}  // namespace calligraphy
+}  // namespace calligraphy::detail

@@ -4,7 +4,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace calligraphy {
+namespace calligraphy::detail {
 namespace {
 
 // The floating-point control register, and its bits that flush denormal operands and results.
@@ -34,4 +34,4 @@ FlushDenormals::~FlushDenormals() { set_control(before_); }
 
 bool FlushDenormals::available() noexcept { return flush != 0; }
 
-}  // namespace calligraphy
+}  // namespace calligraphy::detail

@@ -6,7 +6,7 @@
 
 #include "base/require.hpp"
 
-namespace calligraphy {
+namespace calligraphy::detail {
 namespace {
 
 double checked(const char* name, double value, double largest) {
@@ -70,4 +70,4 @@ void ForceGuard::cut(DeviceFault fault) noexcept {
   force_.setZero();
 }
 
-}  // namespace calligraphy
+}  // namespace calligraphy::detail

@@ -90,7 +90,7 @@ Servo::Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options)
 
 void Servo::step(double now) noexcept {
   // Decaying filters in the force law end in denormal numbers, whichever thread calls it.
-  const FlushDenormals flush;
+  const detail::FlushDenormals flush;
   std::uint64_t owner = owner_.load(std::memory_order_acquire);
   if (!take(owner)) {
     idle_ticks_.fetch_add(1, std::memory_order_relaxed);

@@ -36,7 +36,7 @@ void PassivityController::restart() noexcept {
 Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted) noexcept {
   damping_.setZero();
   if (is_finite(position)) {
-    const ObservedStep step = observer_.move(position);
+    const detail::ObservedStep step = observer_.move(position);
     if (step.seen) damp(step, wanted);
   } else {
     observer_.lose_sample();
@@ -50,7 +50,7 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
 }
 
 /// Damps the motion of this step, for the energy delivered beyond the work of the field.
-void PassivityController::damp(const ObservedStep& step, const Eigen::Vector3d& field) noexcept {
+void PassivityController::damp(const detail::ObservedStep& step, const Eigen::Vector3d& field) noexcept {
   const Eigen::Vector3d beyond = step.force - 0.5 * (field_ + field);
   surplus_in_plane_ = std::max(0.0, surplus_in_plane_ + beyond.head<2>().dot(step.way.head<2>()));
   surplus_normal_ = std::max(0.0, surplus_normal_ + beyond.z() * step.way.z());

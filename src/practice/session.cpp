@@ -44,7 +44,7 @@ Recording run_session(const PracticePage& page, const SessionOptions& options, c
   HapticRenderer renderer(page.characters, mapping, capabilities, options.renderer);
   SimulatedDevice device(capabilities, options.skill.grip, mapping.to_device(resting_point(page)));
 
-  const FlushDenormals as_a_servo_thread;
+  const detail::FlushDenormals as_a_servo_thread;
   SessionTick session(renderer, capabilities, options.mode, options.law, options.measure_ticks);
   const double period = 1.0 / renderer.options().servo_rate;
   const double longest = options.character_timeout * static_cast<double>(page.characters.size());
@@ -93,7 +93,7 @@ Recording follow_trace(const PracticePage& page, const PenTrace& trace, const Se
 Recording replay_page(const PracticePage& page, ReplayDevice& device, const SessionOptions& options) {
   const MotionMapping mapping = options.mapping.value_or(upright_page(page.width, page.height));
   HapticRenderer renderer(page.characters, mapping, device.capabilities(), options.renderer);
-  const FlushDenormals as_a_servo_thread;
+  const detail::FlushDenormals as_a_servo_thread;
   SessionTick session(renderer, device.capabilities(), options.mode, options.law, options.measure_ticks);
   Recording recording = recording_for(page, renderer, options.mode, options.law);
   while (!device.finished()) {

@@ -29,7 +29,7 @@ EnergyBudget::EnergyBudget(const EnergyBudgetOptions& options, double period)
   require_not_negative("energy budget: max_gap", max_gap, "s");
   require_above_zero("energy budget: scale", scale, "");
   require_above_zero("energy budget: period", period, "s");
-  require_within("energy budget: delay", delay, "ticks", 0, EnergyObserver::max_delay);
+  require_within("energy budget: delay", delay, "ticks", 0, detail::EnergyObserver::max_delay);
   brake_ = max_brake / scale * std::min(1.0, max_brake_age / ((delay + 1.0) * period));
   reserve_ = std::min(0.5 * options.budget, brake_ * hand_speed * (max_gap + (delay + 1.0) * period));
   smoothing_ = -std::expm1(-period / brake_smoothing);

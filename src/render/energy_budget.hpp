@@ -15,7 +15,7 @@ inline constexpr double usual_energy_budget = 0.1;
 
 /// Whether energy can be accounted for: the device's mass is known, and its samples are not too old.
 inline bool permits_account(const Capabilities& device) noexcept {
-  return device.apparent_mass > 0.0 && device.sample_delay <= EnergyObserver::max_delay;
+  return device.apparent_mass > 0.0 && device.sample_delay <= detail::EnergyObserver::max_delay;
 }
 
 /// How much energy may be given, and what a budget must know about the device, the hand and the loop.
@@ -26,7 +26,7 @@ struct EnergyBudgetOptions {
   double encoder_step = 0.0;                              ///< resolution of a position along each axis [m]
   /// Always charge the most that the force may give unseen by following motion that the encoder hides.
   bool charges_encoder = false;
-  EnergyObserverOptions observer = {};  ///< which accounts for the energy
+  detail::EnergyObserverOptions observer = {};  ///< which accounts for the energy
 };
 
 /// Limits the force so that its net energy, as EnergyObserver accounts for it, stays within a budget. Never allocates.
@@ -85,7 +85,7 @@ class EnergyBudget {
 
   EnergyBudgetOptions options_;
   double period_ = 0.001;  ///< [s]
-  EnergyObserver observer_;
+  detail::EnergyObserver observer_;
   double smoothing_ = 1.0;                               ///< share of a period in the average of the velocity
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< of the pen, smoothed for the brake [m/s]
   bool brakes_ = false;

@@ -6,7 +6,7 @@
 
 #include "collision/length.hpp"
 
-namespace calligraphy {
+namespace calligraphy::detail {
 namespace {
 
 /// A sample that implies a faster pen is not a motion: the pen is elsewhere [m/s].
@@ -126,4 +126,4 @@ ObservedStep EnergyObserver::move(const Eigen::Vector3d& position) noexcept {
   gap_ = {};
 }
 
-}  // namespace calligraphy
+}  // namespace calligraphy::detail

@@ -9,12 +9,12 @@ using namespace calligraphy;
 
 namespace {
 
-FeaturePlane plane_of(std::vector<Point> points) { return end_plane(prepare_element(points)); }
+detail::FeaturePlane plane_of(std::vector<Point> points) { return detail::end_plane(prepare_element(points)); }
 
 }  // namespace
 
 TEST_CASE("a feature point has been passed where V_t . V_f of eq. (6) is positive", "[collision]") {
-  const FeaturePlane plane = plane_of({{0, 0}, {3, 4}});
+  const detail::FeaturePlane plane = plane_of({{0, 0}, {3, 4}});
   CHECK(plane.point == Point(3, 4));
   CHECK(plane.normal.isApprox(Point(0.6, 0.8)));
   CHECK(plane.signed_distance({3, 4}) == 0.0);
@@ -32,7 +32,7 @@ TEST_CASE("the plane of a curve is perpendicular to its end tangent, also where 
 }
 
 TEST_CASE("the plane of a point has no sides", "[collision]") {
-  const FeaturePlane plane = plane_of({{1, 1}, {1, 1}});
+  const detail::FeaturePlane plane = plane_of({{1, 1}, {1, 1}});
   CHECK(plane.normal == Point(0, 0));
   CHECK(plane.signed_distance({5, -7}) == 0.0);
 }

@@ -56,7 +56,7 @@ TEST_CASE("certain signs agree with the slope in double precision", "[collision]
   for (int i = 0; i < 200; ++i) {
     std::vector<Point> points;
     for (int k = 0; k < 4; ++k) points.push_back(random.point(0.0, 1.0));
-    const CurveElement curve = prepare_curve(points);
+    const CurveElement curve = detail::prepare_curve(points);
     for (int k = 0; k < 50; ++k) {
       const Point query = random.point(-1.0, 2.0);
       const Signs signs = slope_signs(curve.ordinates, (pair(query) - pair(curve.origin)) * curve.per_size);

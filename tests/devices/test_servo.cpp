@@ -717,11 +717,11 @@ TEST_CASE("periods, work and missed deadlines are those of the clocks", "[servo]
   CHECK(statistics.ticks == 1002);
   CHECK(statistics.missed_deadlines == 3);
   CHECK(statistics.period.count == 1001);
-  CHECK(statistics.period.p50 == Approx(1e-3).epsilon(DurationHistogram::relative_error));
-  CHECK(statistics.period.p99 == Approx(1e-3).epsilon(DurationHistogram::relative_error));
+  CHECK(statistics.period.p50 == Approx(1e-3).epsilon(detail::DurationHistogram::relative_error));
+  CHECK(statistics.period.p99 == Approx(1e-3).epsilon(detail::DurationHistogram::relative_error));
   CHECK(statistics.period.worst == Approx(3e-3));
   CHECK(statistics.work.count == 1002);
-  CHECK(statistics.work.p50 == Approx(0.25e-3).epsilon(DurationHistogram::relative_error));
+  CHECK(statistics.work.p50 == Approx(0.25e-3).epsilon(detail::DurationHistogram::relative_error));
 }
 
 TEST_CASE("every fault has a unique name", "[servo]") {

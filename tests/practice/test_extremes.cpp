@@ -333,8 +333,8 @@ TEST_CASE("denormal positions, depths and stiffnesses give finite forces, with a
   const Capabilities& capabilities = device_profile("desktop");
   for (const Composition& composition : compositions) {
     for (const bool flush : {false, true}) {
-      std::unique_ptr<FlushDenormals> as_a_servo_thread;
-      if (flush) as_a_servo_thread = std::make_unique<FlushDenormals>();
+      std::unique_ptr<detail::FlushDenormals> as_a_servo_thread;
+      if (flush) as_a_servo_thread = std::make_unique<detail::FlushDenormals>();
       RendererOptions options = composition.options(capabilities);
       options.paper.stiffness = 1e-310;
       HapticRenderer renderer({{one_stroke().character, {{0.0, 0.0}, 0.04}}}, {}, capabilities, options);
@@ -350,14 +350,14 @@ TEST_CASE("denormal positions, depths and stiffnesses give finite forces, with a
 
 TEST_CASE("FlushDenormals treats denormal inputs and results as zero, only during its lifetime",
           "[practice][extremes]") {
-  if (!FlushDenormals::available()) {
+  if (!detail::FlushDenormals::available()) {
     WARN("skipped: this processor cannot flush denormals");
     return;
   }
   volatile double small = 1e-310, half = 0.5, least = 2.3e-308;
   CHECK(small * half != 0.0);
   {
-    const FlushDenormals as_a_servo_thread;
+    const detail::FlushDenormals as_a_servo_thread;
     CHECK(small * half == 0.0);  // input
     CHECK(least * half == 0.0);  // result
   }

@@ -164,7 +164,7 @@ constexpr double hostile_seconds = calligraphy_test::sanitized ? 0.5 : 2.0;
 
 TEST_CASE("the observed energy is the true work of the held force", "[render]") {
   // Random forces and steps, so that nothing but F(n) . (x(n + 1) - x(n)) can add up to it.
-  for (const int delay : {0, 1, 2, 5, EnergyObserver::max_delay}) {
+  for (const int delay : {0, 1, 2, 5, detail::EnergyObserver::max_delay}) {
     EnergyBudgetOptions options;
     options.observer.delay = delay;
     EnergyBudget budget(options, 0.001);
@@ -189,7 +189,7 @@ TEST_CASE("the observed energy is the true work of the held force", "[render]") 
 
 TEST_CASE("no field, pen up to the speed of a hand, rate or delay extracts more than the budget", "[render]") {
   for (const double rate : {100.0, 1000.0, 20'000.0}) {
-    for (const int delay : {0, 1, 2, 5, EnergyObserver::max_delay}) {
+    for (const int delay : {0, 1, 2, 5, detail::EnergyObserver::max_delay}) {
       const Setting setting{rate, delay};
       const double seconds = rate > 5000.0 ? 0.25 * hostile_seconds : hostile_seconds;
       for (const auto& [name, field] : hostile_fields) {
@@ -205,7 +205,7 @@ TEST_CASE("no field, pen up to the speed of a hand, rate or delay extracts more 
 TEST_CASE("a hand that shakes so fast that late samples make the brake push gets no more than the budget in minutes",
           "[render]") {
   const double seconds = calligraphy_test::sanitized ? 4.0 : 300.0;
-  for (int delay = 0; delay <= EnergyObserver::max_delay; ++delay) {
+  for (int delay = 0; delay <= detail::EnergyObserver::max_delay; ++delay) {
     Setting setting{1000.0, delay};
     for (const double swing : {2.1, 2.7, 3.5}) {  // periods of the swing over the age of the brake
       const Pen pen = to_and_fro(0.2, 0.2 * 2.0 * std::numbers::pi * setting.rate / (swing * (delay + 1)));

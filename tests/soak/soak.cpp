@@ -33,7 +33,7 @@ Watched soak(const SoakOptions& options, const std::function<void(double)>& prog
   const double peak = profile.peak_force * (1.0 + 1e-12);
   const double step_limit = renderer.max_force_step() * (1.0 + 1e-9);
 
-  const FlushDenormals as_a_servo_thread;
+  const detail::FlushDenormals as_a_servo_thread;
   Watched watched;
   Vector3d last = Vector3d::Zero();
   const std::size_t allocated = allocations();

@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
   calligraphy::Random random(base.seed);
   for (const auto& device : calligraphy::device_profiles()) {
     if (!profile.empty() && profile != device.name) continue;
-    for (int late = 0; late <= calligraphy::EnergyObserver::max_delay; ++late) {
+    for (int late = 0; late <= calligraphy::detail::EnergyObserver::max_delay; ++late) {
       std::vector<EnergyRun> cases;
       for (std::size_t t = 0; t < timing_names.size(); ++t) {
         for (std::size_t h = 0; h < energy_hand_names.size(); ++h) {

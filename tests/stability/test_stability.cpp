@@ -189,7 +189,7 @@ TEST_CASE("no hand gets more energy than the budget, whatever it tries and howev
     const auto n = static_cast<std::size_t>(i);
     EnergyRun run;
     run.device = profiles[n % profiles.size()];
-    run.device.sample_delay = i % (calligraphy::EnergyObserver::max_delay + 1);
+    run.device.sample_delay = i % (calligraphy::detail::EnergyObserver::max_delay + 1);
     run.hand = static_cast<EnergyHand>(7 * n % energy_hand_names.size());
     run.timing = static_cast<Timing>(n / 5 % static_cast<std::size_t>(Timing::idle_watchdog));
     run.servo = i % 2 == 1;
@@ -235,7 +235,7 @@ TEST_CASE("no hand gets more energy than the budget from a force that worked whi
     const auto n = static_cast<std::size_t>(i);
     EnergyRun run;
     run.device = profiles[n % profiles.size()];
-    run.device.sample_delay = i % (calligraphy::EnergyObserver::max_delay + 1);
+    run.device.sample_delay = i % (calligraphy::detail::EnergyObserver::max_delay + 1);
     run.hand = static_cast<EnergyHand>(7 * n % energy_hand_names.size());
     run.timing = i % 2 == 0 ? Timing::idle_watchdog : Timing::starved_watchdog;
     run.servo = true;

@@ -71,7 +71,7 @@ py::array trace(HapticRenderer& renderer, const ArrayLike& positions, const std:
     constexpr py::ssize_t block = 1024;
     for (py::ssize_t first = 0; first < count; first += block) {
       interrupt.check();  // outside the scope that flushes denormals: a Python handler may need them
-      const FlushDenormals as_a_servo_thread;
+      const detail::FlushDenormals as_a_servo_thread;
       for (py::ssize_t i = first; i < std::min(first + block, count); ++i) {
         state.time = time ? time[i] : start + static_cast<double>(i + 1) * period;
         state.position = vector_at(data, i);

@@ -80,7 +80,7 @@ class ActiveStroke {
   /// The stroke from one feature point to the next.
   struct Part {
     StrokeElement element;
-    FeaturePlane end;
+    detail::FeaturePlane end;
     double first_arc, last_arc;  ///< arc length from the start of the stroke [m]
     double first_attraction, last_attraction;
   };

@@ -38,7 +38,7 @@ class ForceLaw {
   /// call, and nothing that merely converts to it: an Eigen expression may refer to temporaries of the function.
   template <class Law>
   requires(!ForceRenderer<Law> && !std::derived_from<std::remove_cvref_t<Law>, ForceLaw>) ForceLaw(Law&& law) {
-    using Force = Returned<std::decay_t<Law>&, const DeviceState&>;
+    using Force = detail::Returned<std::decay_t<Law>&, const DeviceState&>;
     constexpr bool is_force = std::is_same_v<Force, Eigen::Vector3d>;
     constexpr bool converts = std::is_convertible_v<Force, Eigen::Vector3d>;  // as Eigen's expressions do
     static_assert(converts,
@@ -188,7 +188,7 @@ class Servo {
   std::atomic<std::uint64_t> status_ = 0;  ///< packed
 
   // Used only by the owner of the device.
-  ForceGuard guard_;
+  detail::ForceGuard guard_;
   DeviceStatus device_status_ = DeviceStatus::ok;
   DeviceFault last_fault_ = DeviceFault::none;  ///< of the previous tick
   Eigen::Vector3d written_ = Eigen::Vector3d::Zero();
@@ -215,8 +215,8 @@ class Servo {
   DeviceFault reason_ = DeviceFault::none;
   std::atomic<double> steady_for_ = 0.0;  ///< time since it last changed the force [s]
 
-  DurationHistogram periods_;
-  DurationHistogram work_;
+  detail::DurationHistogram periods_;
+  detail::DurationHistogram work_;
   std::atomic<std::uint64_t> ticks_ = 0;
   std::atomic<std::uint64_t> missed_ = 0;
   std::atomic<std::uint64_t> stale_ = 0;

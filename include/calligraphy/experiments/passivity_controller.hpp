@@ -28,7 +28,7 @@ struct PassivityOptions {
 class PassivityController {
  public:
   /// Highest age of a sample that the observer allows for [ticks].
-  static constexpr int max_delay = EnergyObserver::max_delay;
+  static constexpr int max_delay = detail::EnergyObserver::max_delay;
 
   PassivityController() = default;
   /// @throws ValueError naming the value when an option or the period is out of range
@@ -48,11 +48,11 @@ class PassivityController {
   const Eigen::Vector3d& damping() const noexcept { return damping_; }
 
  private:
-  void damp(const ObservedStep& step, const Eigen::Vector3d& field) noexcept;
+  void damp(const detail::ObservedStep& step, const Eigen::Vector3d& field) noexcept;
 
   double max_damping_ = 0.0;
   double period_ = 0.001;
-  EnergyObserver observer_;
+  detail::EnergyObserver observer_;
   Eigen::Vector3d field_ = Eigen::Vector3d::Zero();  ///< desired in the previous tick
   Eigen::Vector3d damping_ = Eigen::Vector3d::Zero();
   double surplus_in_plane_ = 0.0;  ///< not yet dissipated [J]

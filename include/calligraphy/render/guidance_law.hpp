@@ -149,7 +149,7 @@ template <class Force>
 class FunctionLaw final : public GuidanceLaw {
  public:
   /// What the function returns.
-  using Result = Returned<Force&, const GuidanceInput&>;
+  using Result = detail::Returned<Force&, const GuidanceInput&>;
   static_assert(std::is_same_v<Result, Point> || std::is_same_v<Result, GuidanceTerms>,
                 "a guidance law returns Point or GuidanceTerms: write -> Point after the lambda's parameters, since an "
                 "Eigen expression refers to temporaries that are gone");

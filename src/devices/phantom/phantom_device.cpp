@@ -399,7 +399,7 @@ class PhantomDevice::Core final : public LinkListener {
   double silent_until_ = 0.0;
   std::uint64_t faults_seen_ = 0;
   Joints good_joints_ = Joints::Zero();  ///< at the last good force; during a fault the newest may be wrong
-  ForceGuard guard_;
+  detail::ForceGuard guard_;
   ForceOutput output_;
   Eigen::Vector3d sent_force_ = Eigen::Vector3d::Zero();  ///< force of the last command sent [N]
 

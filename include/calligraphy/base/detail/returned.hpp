@@ -4,7 +4,7 @@
 #include <concepts>
 #include <type_traits>
 
-namespace calligraphy {
+namespace calligraphy::detail {
 
 template <class Function, class... Arguments>
 struct ReturnedBy {
@@ -20,4 +20,4 @@ struct ReturnedBy<Function, Arguments...> {
 template <class Function, class... Arguments>
 using Returned = typename ReturnedBy<Function, Arguments...>::type;
 
-}  // namespace calligraphy
+}  // namespace calligraphy::detail

@@ -59,7 +59,9 @@ struct CurveElement {
   double parameter_at(double arc_length) const noexcept;
 };
 
+namespace detail {
 /// Prepares 3 to 5 control points, finite and not all equal as checked by prepare_element. Does not allocate.
 CurveElement prepare_curve(std::span<const Point> control_points) noexcept;
+}  // namespace detail
 
 }  // namespace calligraphy

@@ -3,7 +3,7 @@
 
 #include <calligraphy/collision/stroke_element.hpp>
 
-namespace calligraphy {
+namespace calligraphy::detail {
 
 /// Plane through a feature point, perpendicular to the element that ends there.
 struct FeaturePlane {
@@ -18,4 +18,4 @@ inline FeaturePlane end_plane(const StrokeElement& element) noexcept {
   return {element.point(1.0), element.tangent(1.0)};
 }
 
-}  // namespace calligraphy
+}  // namespace calligraphy::detail

@@ -15,6 +15,8 @@ struct LineElement {
   Point point(double t) const noexcept { return origin + t * edge; }
 };
 
+namespace detail {
 LineElement prepare_line(const Point& start, const Point& end) noexcept;
+}  // namespace detail
 
 }  // namespace calligraphy

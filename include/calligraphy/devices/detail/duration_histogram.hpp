@@ -8,7 +8,7 @@
 
 #include <calligraphy/devices/servo_statistics.hpp>
 
-namespace calligraphy {
+namespace calligraphy::detail {
 
 /// Fixed buckets, 128 per octave: the error of a percentile is at most 1/256 of its value, or 1 ns. Durations above 18
 /// minutes count in the last bucket. add() is wait-free and does not allocate; a concurrent summary() misses at most
@@ -30,4 +30,4 @@ class DurationHistogram {
   std::atomic<std::uint64_t> worst_ = 0;  ///< [ns]
 };
 
-}  // namespace calligraphy
+}  // namespace calligraphy::detail

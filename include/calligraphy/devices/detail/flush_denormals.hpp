@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace calligraphy {
+namespace calligraphy::detail {
 
 /// RAII guard: during its lifetime, denormal operands and results (below 2.2e-308) in this thread are treated as zero.
 /// Processors are up to a hundred times slower on denormals, and decaying filters end in them. Supports x86 with SSE2
@@ -22,4 +22,4 @@ class FlushDenormals {
   std::uint64_t before_;
 };
 
-}  // namespace calligraphy
+}  // namespace calligraphy::detail

@@ -8,8 +8,8 @@
 #include <calligraphy/devices/device_state.hpp>
 
 namespace calligraphy {
-
 enum class ServoPhase : std::uint8_t;  // servo.hpp
+namespace detail {
 
 /// Converts desired forces into forces that are safe to output. On a fault, the last output ramps down linearly to zero
 /// within `ramp_down`, its direction preserved; the ramp always completes, even if the fault clears sooner. Then the
@@ -52,4 +52,5 @@ class ForceGuard {
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();  ///< last output
 };
 
+}  // namespace detail
 }  // namespace calligraphy

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-namespace calligraphy {
+namespace calligraphy::detail {
 
 /// What an observer must know of the hand and the loop.
 struct EnergyObserverOptions {
@@ -100,4 +100,4 @@ class EnergyObserver {
   double given_ = 0.0;  ///< [J]
 };
 
-}  // namespace calligraphy
+}  // namespace calligraphy::detail
