@@ -68,6 +68,24 @@ function(calligraphy_component name)
   install(DIRECTORY include/calligraphy/${COMPONENT_FOLDER}/ DESTINATION ${include_directory} ${without})
 endfunction()
 
+# calligraphy_embed_languages(variable): generates a source file that defines calligraphy::built_in::languages, from every
+# file of data/languages, declared in src/judge/remarks/built_in.hpp.
+function(calligraphy_embed_languages variable)
+  set(source ${PROJECT_BINARY_DIR}/built_in_languages.cpp)
+  set(content "#include <${PROJECT_SOURCE_DIR}/src/judge/remarks/built_in.hpp>\n\nconst calligraphy::built_in::LanguageFile ")
+  string(APPEND content "calligraphy::built_in::languages[] = {\n")
+  file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/data/languages/*.txt)
+  foreach(file ${files})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    get_filename_component(code ${file} NAME_WE)
+    file(READ ${file} text)
+    string(APPEND content "{\"${code}\", R\"calligraphy(${text})calligraphy\"},\n")
+  endforeach()
+  string(APPEND content "{nullptr, nullptr}};\n")
+  file(CONFIGURE OUTPUT ${source} CONTENT "@content@" @ONLY)
+  set(${variable} ${source} PARENT_SCOPE)
+endfunction()
+
 function(calligraphy_warnings target)
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra -Wpedantic -Wconversion -Wshadow>

@@ -72,12 +72,17 @@ std::string name_in_file(char32_t code) {
 }
 
 void add_language_option(CLI::App& command, Language& language) {
+  std::vector<std::string> codes, names;
+  for (const Language& each : languages()) {
+    codes.emplace_back(each.code());
+    names.emplace_back(each.name());
+  }
   command
       .add_option_function<std::string>(
           "--language",
-          [&language](const std::string& name) { language = name == "zh" ? Language::chinese : Language::english; },
-          "Language of the remarks: English or Chinese")
-      ->check(CLI::IsMember({"en", "zh"}))
+          [&language](const std::string& code) { language = Language(code); },
+          fmt::format("Language of remarks, tables, pictures and hints: {}", fmt::join(names, ", ")))
+      ->check(CLI::IsMember(codes))
       ->default_str("en");
 }
 

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <calligraphy/devices/capabilities.hpp>
-#include <calligraphy/judge/stroke_matching.hpp>
+#include <calligraphy/judge/language.hpp>
 #include <calligraphy/pictures/stroke_style.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
@@ -46,7 +46,7 @@ struct PageChoice {
   PageLayout layout(const Capabilities& device) const { return workspace_layout(device, mapping(0.0, 0.0)); }
 };
 
-/// Adds --language en|zh, that of remarks.
+/// Adds --language, that of what people are told.
 void add_language_option(CLI::App& command, Language& language);
 
 /// Adds --lines, which draws strokes as lines instead of ink.

@@ -42,7 +42,7 @@ struct ReplayArguments {
   std::string renderer = "default";
   PageChoice page;
   StrokeStyle style = StrokeStyle::ink;  ///< of the templates
-  Language language = Language::english;
+  Language language;
   bool recognise = false;
   bool json = false;
 };

@@ -120,7 +120,7 @@ Json json_of(const Replayed& trace) {
                      {"distance_em", each.stroke_count > 0 ? Json(each.distance) : Json()}});
   }
   Json remarks = Json::array();
-  for (const StrokeRemark& remark : trace.match.remarks) remarks.push_back(remark_json(remark));
+  for (const StrokeRemark& remark : trace.match.remarks) remarks.push_back(remark_json(remark, trace.match.character));
   return {{"character", encode_utf8(trace.guided.character)},
           {"position", trace.position},
           {"set", trace.set},
@@ -144,7 +144,7 @@ Json json_of(const Replayed& trace) {
 
 }  // namespace
 
-std::string table(const ReplayReport& report, Language language) {
+std::string table(const ReplayReport& report, const Language& language) {
   constexpr const char* head = "{:<8}{:>10}  {:<16}{:<14}{:<22}{:>11}{:>8}{:>8}{:>11}\n";
   std::string text =
       fmt::format(fmt::runtime(head), "", "pen-downs", "", "", "", "completed", "", "peak F", "max step");
@@ -160,7 +160,7 @@ std::string table(const ReplayReport& report, Language language) {
                         fmt::format("{}/{}", trace.guided.strokes_completed, trace.guided.stroke_count), trace.faults,
                         trace.guided.peak_force, trace.guided.max_force_step);
     for (const StrokeRemark& remark : match.remarks) {
-      remarks += fmt::format("{:>3} {}  {}\n", trace.position, character, reason_in(remark, language));
+      remarks += fmt::format("{:>3} {}  {}\n", trace.position, character, remark_text(remark, match.character, language));
     }
   }
   text += fmt::format("limits of {}: force {:.2f} N, force step {:.3f} N/tick\n", report.device, report.peak_force,

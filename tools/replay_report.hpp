@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <calligraphy/judge/character_index.hpp>
+#include <calligraphy/judge/language.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/practice/score.hpp>
 
@@ -42,7 +43,7 @@ struct ReplayReport {
 };
 
 /// One line per trace, the limits, all remarks in a language, then the totals.
-std::string table(const ReplayReport& report, Language language);
+std::string table(const ReplayReport& report, const Language& language);
 
 std::string json(const ReplayReport& report);
 

@@ -8,27 +8,31 @@
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/judge/stroke_matching.hpp>
+#include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/judge/writing_motion.hpp>
 
 namespace calligraphy::tools {
 
 /// Pen-downs and strokes from 1; null for none.
-inline nlohmann::ordered_json remark_json(const StrokeRemark& remark) {
+inline nlohmann::ordered_json remark_json(const StrokeRemark& remark, const Character& character) {
   using Json = nlohmann::ordered_json;
   const auto number = [](int index) { return index >= 0 ? Json(index + 1) : Json(); };
-  return {{"kind", calligraphy::to_string(remark.kind)},
-          {"pen_down", number(remark.path)},
-          {"pen_down_count", remark.path_count},
-          {"stroke", number(remark.stroke)},
-          {"stroke_count", remark.stroke_count},
-          {"other_pen_down", number(remark.other_path)},
-          {"other_stroke", number(remark.other_stroke)},
-          {"other_character", remark.other_character ? Json(encode_utf8(remark.other_character)) : Json()},
-          {"place_em", {remark.place.x(), remark.place.y()}},
-          {"evidence", remark.evidence},  // null: always told
-          {"reason", remark.reason},
-          {"reason_zh", remark.reason_zh}};
+  Json json = {{"kind", calligraphy::to_string(remark.kind)},
+               {"pen_down", number(remark.path)},
+               {"pen_down_count", remark.path_count},
+               {"stroke", number(remark.stroke)},
+               {"stroke_count", remark.stroke_count},
+               {"other_pen_down", number(remark.other_path)},
+               {"other_stroke", number(remark.other_stroke)},
+               {"other_character", remark.other_character ? Json(encode_utf8(remark.other_character)) : Json()},
+               {"place_em", {remark.place.x(), remark.place.y()}},
+               {"evidence", remark.evidence}};  // null: always told
+  json["reason"] = remark_text(remark, character);
+  for (const Language& language : languages()) {
+    if (language == Language()) continue;
+    json["reason_" + std::string(language.code())] = remark_text(remark, character, language);
+  }
+  return json;
 }
 
 /// With the unit of length in the names; null for what was not measured.

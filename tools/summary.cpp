@@ -217,7 +217,7 @@ std::string json(const Summary& summary) {
     const CharacterScore& score = result.score;
     Json remarks = Json::array();
     for (const StrokeRemark& remark : score.match.remarks) {
-      Json each = remark_json(remark);
+      Json each = remark_json(remark, score.match.character);
       const bool has_time = remark.path >= 0;
       each["time_s"] = has_time ? Json(score.pen_downs[static_cast<std::size_t>(remark.path)].motion.begin) : Json();
       remarks.push_back(each);
@@ -288,7 +288,7 @@ std::string reductions(const std::vector<Result>& results) {
   return text;
 }
 
-std::string remarks(const Summary& summary, Language language) {
+std::string remarks(const Summary& summary, const Language& language) {
   std::string text;
   std::size_t count = 0;
   for (const Result& result : summary.results) {
@@ -296,7 +296,7 @@ std::string remarks(const Summary& summary, Language language) {
     for (const StrokeRemark& remark : result.score.match.remarks) {
       ++count;
       text += fmt::format("{:>3} {}  {}{}  {}\n", result.position, encode_utf8(result.score.character),
-                          to_string(result.mode), of, reason_in(remark, language));
+                          to_string(result.mode), of, remark_text(remark, result.score.match.character, language));
     }
   }
   if (count == 0) return "";

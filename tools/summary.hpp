@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/judge/stroke_matching.hpp>
+#include <calligraphy/judge/language.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 
@@ -48,6 +48,6 @@ std::string json(const Summary& summary);
 std::string reductions(const std::vector<Result>& results);
 
 /// All remarks in a language, a line each; of more than 20, how many there are. Empty without any.
-std::string remarks(const Summary& summary, Language language);
+std::string remarks(const Summary& summary, const Language& language);
 
 }  // namespace calligraphy::tools

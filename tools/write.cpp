@@ -58,7 +58,7 @@ struct WriteArguments {
   StrokeStyle style = StrokeStyle::ink;
   std::optional<std::string> method;
   std::optional<double> tolerance;
-  Language language = Language::english;
+  Language language;
   bool json = false;
 };
 

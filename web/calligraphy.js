@@ -16,7 +16,7 @@ export { constants };
  * @typedef {import("./calligraphy_layout.js").Structs} Structs such as Structs["tick"]
  * @typedef {ReturnType<typeof bind>} Library what load() returns
  * @typedef {Values<Structs["drawn_stroke"]>} Drawn what a pen-down wrote
- * @typedef {Values<Structs["remark"]> & {reason: string, reason_zh: string}} Remark in English and in Chinese
+ * @typedef {Values<Structs["remark"]> & {text: (language?: string) => string}} Remark and what it says, "en" or "zh"
  * @typedef {{drawn: Drawn[], remarks: Remark[]}} Match
  * @typedef {Values<Structs["stroke_score"]>} StrokeScore
  * @typedef {Values<Structs["pen_down_score"]>} PenDownScore
@@ -104,7 +104,7 @@ function bind(module) {
   /** @type {Functions} */
   const library = /** @type {any} */ (Object.fromEntries(
     Object.entries(functions).map(([name, { parameters, returns }]) => [name, bound(name, parameters, returns)])));
-  return { ...library, struct, discard, text, polyline, hint, match, score };
+  return { ...library, struct, discard, text, polyline, hint, languages, match, score };
 
   /**
    * A function of the library. Whatever its parameters say is looked up here, once.
@@ -293,6 +293,13 @@ function bind(module) {
     }
   }
 
+  /** The codes of the languages in which remarks and hints can be had: "en", "zh". */
+  function languages() {
+    const codes = /** @type {string[]} */ ([]);
+    while (codes.length < library.language_count()) codes.push(library.language_code(codes.length));
+    return codes;
+  }
+
   /**
    * All that a match says of so many pen-downs; it is freed.
    * @param {Handle} handle
@@ -304,19 +311,22 @@ function bind(module) {
       const drawn = readAll("drawn_stroke", count, (i, each) => library.match_drawn(handle, i, each));
       const remarks = readAll("remark", library.match_remark_count(handle),
                               (i, each) => library.match_remark(handle, i, each));
-      const said = (/** @type {number} */ i, /** @type {number} */ language) =>
-        library.match_remark_text(handle, i, language);
       return {
         drawn,
-        remarks: remarks.map((remark, i) => ({
-          ...remark,
-          reason: said(i, constants.LANGUAGE_ENGLISH),
-          reason_zh: said(i, constants.LANGUAGE_CHINESE),
-        })),
+        remarks: remarks.map((remark, i) => {
+          const texts = new Map(languages().map((code) => [code, library.match_remark_text(handle, i, code)]));
+          const text = (language = "en") => texts.get(language) ?? refuseLanguage(language, texts);
+          return { ...remark, text };
+        }),
       };
     } finally {
       library.free(handle);
     }
+  }
+
+  /** @param {string} language @param {Map<string, string>} texts @returns {never} */
+  function refuseLanguage(language, texts) {
+    throw new TypeError(`language: expected one of ${[...texts.keys()].join(", ")}, not ${language}`);
   }
 
   /**

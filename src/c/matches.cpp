@@ -1,5 +1,7 @@
 #include <span>
 
+#include <calligraphy/judge/remark_text.hpp>
+
 #include "conversions.hpp"
 #include "objects.hpp"
 #include "structs.hpp"
@@ -37,14 +39,15 @@ calligraphy_status calligraphy_match_strokes(const calligraphy_page* page, int32
       target(points, "points");
       paths = paths_in_square(points, {&target(path_sizes, "path_sizes"), path_count}, placed.placement);
     }
-    hand_out(match, std::make_shared<MatchResult>(match_strokes(placed.character, paths, tolerances_of<JudgeTolerances>(tolerance))));
+    hand_out(match, std::make_shared<MatchObject>(
+                        match_strokes(placed.character, paths, tolerances_of<JudgeTolerances>(tolerance))));
   });
 }
 
 calligraphy_status calligraphy_match_drawn(const calligraphy_match* match, int32_t path,
                                            calligraphy_drawn_stroke* drawn) {
   return guarded([&] {
-    const DrawnStroke& found = item("path", object<MatchResult>(match).drawn, path);
+    const DrawnStroke& found = item("path", object<MatchObject>(match).result.drawn, path);
     write_struct(drawn, "calligraphy_drawn_stroke",
                  {.size = 0,
                   .stroke = found.stroke,
@@ -59,37 +62,52 @@ calligraphy_status calligraphy_match_drawn(const calligraphy_match* match, int32
   });
 }
 
-calligraphy_status calligraphy_match_remark_count(const calligraphy_match* match, int32_t* count) {
-  return guarded(
-      [&] { target(count, "count") = static_cast<std::int32_t>(object<MatchResult>(match).remarks.size()); });
+calligraphy_status calligraphy_language_count(int32_t* count) {
+  return guarded([&] { target(count, "count") = static_cast<std::int32_t>(languages().size()); });
 }
 
-calligraphy_status calligraphy_match_remark(const calligraphy_match* match, int32_t index, calligraphy_remark* remark,
-                                            const char** reason) {
+calligraphy_status calligraphy_language_code(int32_t index, const char** code) {
   return guarded([&] {
-    const StrokeRemark& found = item("index", object<MatchResult>(match).remarks, index);
-    if (remark) {
-      write_struct(remark, "calligraphy_remark",
-                   {.size = 0,
-                    .kind = static_cast<std::int32_t>(found.kind),
-                    .path = found.path,
-                    .path_count = found.path_count,
-                    .stroke = found.stroke,
-                    .stroke_count = found.stroke_count,
-                    .other_path = found.other_path,
-                    .other_stroke = found.other_stroke,
-                    .place = {found.place.x(), found.place.y()},
-                    .other_character = found.other_character});
-    }
-    if (reason) *reason = found.reason.c_str();
+    const std::vector<Language> all = languages();
+    target(code, "code") = item("index", all, index).code().data();
   });
 }
 
-calligraphy_status calligraphy_match_remark_text(const calligraphy_match* match, int32_t index, int32_t language,
+calligraphy_status calligraphy_match_remark_count(const calligraphy_match* match, int32_t* count) {
+  return guarded(
+      [&] { target(count, "count") = static_cast<std::int32_t>(object<MatchObject>(match).result.remarks.size()); });
+}
+
+calligraphy_status calligraphy_match_remark(const calligraphy_match* match, int32_t index, calligraphy_remark* remark) {
+  return guarded([&] {
+    const StrokeRemark& found = item("index", object<MatchObject>(match).result.remarks, index);
+    write_struct(remark, "calligraphy_remark",
+                 {.size = 0,
+                  .kind = static_cast<std::int32_t>(found.kind),
+                  .path = found.path,
+                  .path_count = found.path_count,
+                  .stroke = found.stroke,
+                  .stroke_count = found.stroke_count,
+                  .other_path = found.other_path,
+                  .other_stroke = found.other_stroke,
+                  .place = {found.place.x(), found.place.y()},
+                  .other_character = found.other_character,
+                  .direction = static_cast<std::int32_t>(found.direction),
+                  .length = found.length,
+                  .evidence = found.evidence});
+  });
+}
+
+calligraphy_status calligraphy_match_remark_text(const calligraphy_match* match, int32_t index, const char* language,
                                                  const char** text) {
   return guarded([&] {
-    const StrokeRemark& found = item("index", object<MatchResult>(match).remarks, index);
-    const Language chosen = enumeration("language", language, Language::chinese);
-    target(text, "text") = reason_in(found, chosen).c_str();
+    MatchObject& found = object<MatchObject>(match);
+    const StrokeRemark& remark = item("index", found.result.remarks, index);
+    const Language chosen = language ? Language(language) : Language();
+    target(text, "text");
+    const std::lock_guard lock(found.mutex);
+    std::string& kept = found.texts[{index, std::string(chosen.code())}];
+    if (kept.empty()) kept = remark_text(remark, found.result.character, chosen);
+    *text = kept.c_str();
   });
 }

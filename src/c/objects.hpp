@@ -1,8 +1,11 @@
 // What the handles of the C interface stand for.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <calligraphy/devices/haptic_device.hpp>
@@ -77,6 +80,15 @@ struct StrokeObject {
   const ActiveStroke* stroke = nullptr;  ///< of the law's renderer
 };
 
+/// A match, and what its remarks say, each once it was asked for.
+struct MatchObject {
+  explicit MatchObject(MatchResult of) : result(std::move(of)) {}
+
+  const MatchResult result;
+  std::mutex mutex;                                                   ///< guards `texts`
+  std::map<std::pair<std::int32_t, std::string>, std::string> texts;  ///< by remark and language
+};
+
 /// By character.
 using Scores = std::vector<CharacterScore>;
 
@@ -91,7 +103,7 @@ inline constexpr Kind kind_of<RendererObject> = Kind::renderer;
 template <>
 inline constexpr Kind kind_of<ServoObject> = Kind::servo;
 template <>
-inline constexpr Kind kind_of<MatchResult> = Kind::match;
+inline constexpr Kind kind_of<MatchObject> = Kind::match;
 template <>
 inline constexpr Kind kind_of<RecordingObject> = Kind::recording;
 template <>

@@ -108,6 +108,6 @@ calligraphy_status calligraphy_score_match(const calligraphy_score* score, int32
   return guarded([&] {
     const MatchResult& found = score_of(score, character).match;
     target(match, "match");
-    hand_out(match, std::make_shared<MatchResult>(found));
+    hand_out(match, std::make_shared<MatchObject>(found));
   });
 }

@@ -244,9 +244,9 @@ void draw_guided(pugi::xml_node root, std::span<const PenPath> guided, const svg
   for (const PenPath& path : guided) draw_path(lines, in_picture(path, view), device_colour);
 }
 
-std::vector<std::string> lines_of(const MatchResult& match, Language language) {
+std::vector<std::string> lines_of(const MatchResult& match, const Character& character, const Language& language) {
   std::vector<std::string> lines;
-  for (const StrokeRemark& remark : match.remarks) lines.push_back(reason_in(remark, language));
+  for (const StrokeRemark& remark : match.remarks) lines.push_back(remark_text(remark, character, language));
   if (lines.empty()) lines.emplace_back("all strokes in the correct order and direction");
   if (lines.size() > max_lines) {
     const std::size_t more = lines.size() - max_lines + 1;
@@ -260,12 +260,12 @@ std::vector<std::string> lines_of(const MatchResult& match, Language language) {
 
 std::string replay_picture(const Character& character, std::span<const PenPath> paths, const MatchResult& match,
                            std::span<const PenPath> guided, const std::string& title, StrokeStyle style,
-                           Language language) {
+                           const Language& language) {
   if (match.drawn.size() != paths.size()) {
     throw ValueError("replay picture: the match has " + std::to_string(match.drawn.size()) +
                      " pen-downs, expected the same number as paths, " + std::to_string(paths.size()));
   }
-  const std::vector<std::string> lines = lines_of(match, language);
+  const std::vector<std::string> lines = lines_of(match, character, language);
   const double width = 3.0 * sheet_margin + 2.0 * square_side;
   const double height = sheet_top + square_side + 4.0 + line_height * static_cast<double>(lines.size() + 1) + 3.0;
   pugi::xml_document document;

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 
@@ -117,10 +118,8 @@ void check_match(const calligraphy_match* here, const MatchResult& there) {
   REQUIRE(count == static_cast<std::int32_t>(there.remarks.size()));
   const char* reason = nullptr;
   for (std::int32_t i = 0; i < count; ++i) {
-    REQUIRE(calligraphy_match_remark(here, i, nullptr, &reason) == CALLIGRAPHY_OK);
-    CHECK(reason == there.remarks[static_cast<std::size_t>(i)].reason);
-    REQUIRE(calligraphy_match_remark_text(here, i, CALLIGRAPHY_LANGUAGE_CHINESE, &reason) == CALLIGRAPHY_OK);
-    CHECK(reason == there.remarks[static_cast<std::size_t>(i)].reason_zh);
+    REQUIRE(calligraphy_match_remark_text(here, i, "zh", &reason) == CALLIGRAPHY_OK);
+    CHECK(reason == remark_text(there.remarks[static_cast<std::size_t>(i)], there.character, Language("zh")));
   }
 }
 

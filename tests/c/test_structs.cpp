@@ -8,6 +8,7 @@
 
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/servo.hpp>
+#include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/model/ink_outline.hpp>
 #include <calligraphy/model/set_encoding.hpp>
@@ -403,7 +404,7 @@ TEST_CASE("pen-downs are matched as in C++, with remarks for people") {
   auto remark = sized<calligraphy_remark>();
   const char* reason = nullptr;
   for (int i = 0; i < count; ++i) {
-    REQUIRE(calligraphy_match_remark(match.get(), i, &remark, &reason) == CALLIGRAPHY_OK);
+    REQUIRE(calligraphy_match_remark(match.get(), i, &remark) == CALLIGRAPHY_OK);
     const StrokeRemark& there = expected.remarks[static_cast<std::size_t>(i)];
     CHECK(remark.kind == static_cast<int>(there.kind));
     CHECK(remark.path == there.path);
@@ -414,16 +415,35 @@ TEST_CASE("pen-downs are matched as in C++, with remarks for people") {
     CHECK(remark.other_stroke == there.other_stroke);
     CHECK(remark.other_character == there.other_character);
     CHECK((Point(remark.place[0], remark.place[1]) - there.place).norm() < 1e-9);
-    CHECK(reason == there.reason);
-    REQUIRE(calligraphy_match_remark_text(match.get(), i, CALLIGRAPHY_LANGUAGE_ENGLISH, &reason) == CALLIGRAPHY_OK);
-    CHECK(reason == there.reason);
-    REQUIRE(calligraphy_match_remark_text(match.get(), i, CALLIGRAPHY_LANGUAGE_CHINESE, &reason) == CALLIGRAPHY_OK);
-    CHECK(reason == there.reason_zh);
-    CHECK(there.reason != there.reason_zh);
+    CHECK(remark.direction == static_cast<int>(there.direction));
+    CHECK(std::isnan(remark.length) == std::isnan(there.length));
+    if (!std::isnan(there.length)) CHECK(remark.length == Approx(there.length));
+    CHECK(remark.evidence == Approx(there.evidence));
+    for (const char* const language : {"en", "zh"}) {
+      REQUIRE(calligraphy_match_remark_text(match.get(), i, language, &reason) == CALLIGRAPHY_OK);
+      CHECK(reason == remark_text(there, placed.character, Language(language)));
+    }
+    const char* in_english = nullptr;
+    REQUIRE(calligraphy_match_remark_text(match.get(), i, nullptr, &in_english) == CALLIGRAPHY_OK);
+    CHECK(in_english == remark_text(there, placed.character));
+    CHECK(std::string(reason) != in_english);  // and the text asked for before is still there
   }
-  CHECK(calligraphy_match_remark(match.get(), count, &remark, nullptr) == CALLIGRAPHY_INVALID_VALUE);
-  CHECK(calligraphy_match_remark_text(match.get(), count, CALLIGRAPHY_LANGUAGE_CHINESE, &reason) ==
-        CALLIGRAPHY_INVALID_VALUE);
+  CHECK(calligraphy_match_remark(match.get(), count, &remark) == CALLIGRAPHY_INVALID_VALUE);
+  CHECK(calligraphy_match_remark_text(match.get(), count, "zh", &reason) == CALLIGRAPHY_INVALID_VALUE);
+}
+
+TEST_CASE("the languages are those of C++") {
+  std::int32_t count = 0;
+  REQUIRE(calligraphy_language_count(&count) == CALLIGRAPHY_OK);
+  std::vector<std::string_view> expected;
+  for (const Language& language : languages()) expected.push_back(language.code());
+  REQUIRE(count == static_cast<int>(expected.size()));
+  const char* code = nullptr;
+  for (std::int32_t i = 0; i < count; ++i) {
+    REQUIRE(calligraphy_language_code(i, &code) == CALLIGRAPHY_OK);
+    CHECK(code == expected[static_cast<std::size_t>(i)]);
+  }
+  CHECK(calligraphy_language_code(count, &code) == CALLIGRAPHY_INVALID_VALUE);
 }
 
 TEST_CASE("the version of the header is that of the library") {
@@ -450,7 +470,7 @@ TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its 
   CHECK(sizeof(calligraphy_tick) == 360);
   CHECK(sizeof(calligraphy_servo_state) == 192);
   CHECK(sizeof(calligraphy_drawn_stroke) == 48);
-  CHECK(sizeof(calligraphy_remark) == 56);
+  CHECK(sizeof(calligraphy_remark) == 72);
   CHECK(sizeof(calligraphy_character_score) == 208);
   CHECK(sizeof(calligraphy_stroke_score) == 56);
   CHECK(sizeof(calligraphy_pen_down_score) == 64);
@@ -488,8 +508,6 @@ TEST_CASE("the names of C are the values of C++") {
   CHECK(CALLIGRAPHY_SERVO_FALLING == static_cast<int>(ServoPhase::falling));
   CHECK(CALLIGRAPHY_NEITHER == static_cast<int>(WritingDirection::neither));
   CHECK(CALLIGRAPHY_UNKNOWN_DIRECTION == static_cast<int>(WritingDirection::unknown));
-  CHECK(CALLIGRAPHY_LANGUAGE_ENGLISH == static_cast<int>(Language::english));
-  CHECK(CALLIGRAPHY_LANGUAGE_CHINESE == static_cast<int>(Language::chinese));
   CHECK(CALLIGRAPHY_REMARK_SHAPE == static_cast<int>(StrokeRemarkKind::shape));
   CHECK(CALLIGRAPHY_REMARK_JOINED == static_cast<int>(StrokeRemarkKind::joined));
   CHECK(CALLIGRAPHY_REMARK_BROKEN == static_cast<int>(StrokeRemarkKind::broken));

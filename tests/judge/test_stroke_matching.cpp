@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
 
 #include "../catch.hpp"
@@ -64,10 +65,13 @@ int out_of_turn(const std::vector<std::size_t>& order) {
   return static_cast<int>(order.size() - tails.size());
 }
 
+/// What the first remark says.
+std::string said(const MatchResult& match) { return remark_text(match.remarks.at(0), match.character); }
+
 std::string told(const MatchResult& match) {
   std::string text;
   for (const StrokeRemark& remark : match.remarks)
-    text += std::string(to_string(remark.kind)) + ": " + remark.reason + "\n";
+    text += std::string(to_string(remark.kind)) + ": " + remark_text(remark, match.character) + "\n";
   return text;
 }
 
@@ -205,17 +209,17 @@ TEST_CASE("three parallel lines are identified by their positions", "[judge]") {
     CHECK(match.remarks[0].kind == StrokeRemarkKind::order);
     CHECK(match.remarks[0].path == 1);
     CHECK(match.remarks[0].stroke == 2);
-    CHECK(match.remarks[0].reason == "Stroke 3 (héng) came too early: write stroke 2 (héng) first.");
+    CHECK(said(match) == "Stroke 3 (héng) came too early: write stroke 2 (héng) first.");
   }
   SECTION("the first last") {
     const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[1], lines[2], lines[0]});
     REQUIRE(match.remarks.size() == 1);
-    CHECK(match.remarks[0].reason == "Stroke 1 (héng) came too late: write it first.");
+    CHECK(said(match) == "Stroke 1 (héng) came too late: write it first.");
   }
   SECTION("from the bottom up") {
     const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[2], lines[1], lines[0]});
     REQUIRE(match.remarks.size() == 1);
-    CHECK(match.remarks[0].reason ==
+    CHECK(said(match) ==
           "Strokes 1 to 3 were written from the last to the first: begin with stroke 1 (héng).");
     CHECK(match.remarks[0].path_count == 3);
     CHECK(match.remarks[0].stroke_count == 3);
@@ -235,7 +239,7 @@ TEST_CASE("three parallel lines are identified by their positions", "[judge]") {
     const MatchResult match = match_strokes(three, drawn);
     REQUIRE(match.remarks.size() == 1);
     CHECK(match.remarks[0].kind == StrokeRemarkKind::direction);
-    CHECK(match.remarks[0].reason == "Stroke 2 (héng) was written backwards: start at the left.");
+    CHECK(said(match) == "Stroke 2 (héng) was written backwards: start at the left.");
   }
 }
 
@@ -287,7 +291,7 @@ TEST_CASE("a block of strokes that was moved, and two strokes that changed place
       CHECK(exchanged.stroke == second);
       CHECK(exchanged.other_path == second);
       CHECK(exchanged.other_stroke == first);
-      CHECK(exchanged.reason.find("changed places") != std::string::npos);
+      CHECK(remark_text(exchanged, character).find("changed places") != std::string::npos);
     }
   }
 }
@@ -327,7 +331,7 @@ TEST_CASE("of a stroke that was only begun it is told that only a part was writt
         CAPTURE(text, stroke, share, told(match));
         REQUIRE(match.remarks.size() == 1);
         CHECK(match.remarks[0].stroke == static_cast<int>(stroke));
-        CHECK(match.remarks[0].reason.find("Only a part of stroke") == 0);
+        CHECK(said(match).find("Only a part of stroke") == 0);
       }
     }
   }
@@ -395,7 +399,7 @@ TEST_CASE("a remark has all pen-downs and strokes that it is about, and a place 
     CHECK(remark.path == 1);
     CHECK(remark.path_count == 2);
     CHECK(remark.stroke == 1);
-    CHECK(remark.reason == "Stroke 2 (héngzhégōu) is in two pieces: draw it in one go.");
+    CHECK(remark_text(remark, character) == "Stroke 2 (héngzhégōu) is in two pieces: draw it in one go.");
   }
   SECTION("extra") {
     drawn.insert(drawn.begin() + 1, strokes[0]);
@@ -415,7 +419,7 @@ TEST_CASE("crossing strokes are identified by their orientation", "[judge]") {
   std::swap(drawn[0], drawn[1]);
   const MatchResult match = match_strokes(ten, drawn);
   REQUIRE(match.remarks.size() == 1);
-  CHECK(match.remarks[0].reason == "Stroke 2 (shù) came too early: write stroke 1 (héng) first.");
+  CHECK(said(match) == "Stroke 2 (shù) came too early: write stroke 1 (héng) first.");
 }
 
 TEST_CASE("strokes written without lifting the pen are joined, not an order mistake", "[judge]") {
@@ -554,7 +558,7 @@ TEST_CASE("an additional pen-down is extra, and a bounce is ignored", "[judge]")
     CHECK(match.remarks[0].kind == StrokeRemarkKind::extra);
     CHECK(match.remarks[0].path == 2);
     CHECK(match.remarks[0].stroke == -1);
-    CHECK(match.remarks[0].reason == "Your 3rd line is one too many: leave it out.");
+    CHECK(said(match) == "Your 3rd line is one too many: leave it out.");
   }
   SECTION("a short line across a dot is no attempt at it") {
     const Character eternal = character_of("永");
@@ -573,7 +577,7 @@ TEST_CASE("an additional pen-down is extra, and a bounce is ignored", "[judge]")
     const MatchResult match = match_strokes(ten, drawn);
     REQUIRE(match.remarks.size() == 1);
     CHECK(match.remarks[0].kind == StrokeRemarkKind::extra);
-    CHECK(match.remarks[0].reason ==
+    CHECK(said(match) ==
           "Your 1st and 3rd lines are both stroke 1 (héng): write it only once, in its turn.");
   }
   SECTION("a bounce beside the page") {
@@ -606,7 +610,7 @@ TEST_CASE("a stroke written backwards and at once corrected was written forwards
       REQUIRE(match.remarks.size() == 1);
       CHECK(match.remarks[0].kind == StrokeRemarkKind::extra);
       CHECK(match.remarks[0].path == static_cast<int>(stroke) + (corrected ? 0 : 1));
-      CHECK(match.remarks[0].reason.find(" backwards: start at the ") != std::string::npos);
+      CHECK(said(match).find(" backwards: start at the ") != std::string::npos);
       CHECK(match.drawn[stroke + (corrected ? 1 : 0)].stroke == static_cast<int>(stroke));
     }
   }

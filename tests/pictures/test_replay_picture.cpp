@@ -48,10 +48,10 @@ TEST_CASE("a replay picture shows mistakes in red, lists them, and omits bounces
   const auto document = replay_xml(text);
   CHECK(count(document, "//g[@class='drawn-number']/text") == 2);
   CHECK(count(document, "//g[@class='written']/path[@stroke='#e02020']") == 1);
-  CHECK(text.find(match.remarks.at(0).reason) != std::string::npos);
-  const std::string chinese = replay_picture(ten, paths, match, {}, "<十>", StrokeStyle::ink, Language::chinese);
-  CHECK(chinese.find(match.remarks.at(0).reason_zh) != std::string::npos);
-  CHECK(chinese.find(match.remarks.at(0).reason) == std::string::npos);
+  CHECK(text.find(remark_text(match.remarks.at(0), match.character)) != std::string::npos);
+  const std::string chinese = replay_picture(ten, paths, match, {}, "<十>", StrokeStyle::ink, Language("zh"));
+  CHECK(chinese.find(remark_text(match.remarks.at(0), match.character, Language("zh"))) != std::string::npos);
+  CHECK(chinese.find(remark_text(match.remarks.at(0), match.character)) == std::string::npos);
 }
 
 TEST_CASE("a replay picture shows the template as ink, or as lines, and pen paths as lines", "[practice]") {

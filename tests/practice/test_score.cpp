@@ -5,6 +5,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/practice/score.hpp>
 
 #include "../catch.hpp"
@@ -499,7 +500,8 @@ TEST_CASE("two strokes written in each other's place are one order mistake, and 
   const CharacterScore result = pen.scores().front();
   REQUIRE(result.order_mistakes() == 1);
   CHECK(result.match.remarks.size() == 1);
-  CHECK(result.match.remarks[0].reason == "Stroke 5 (nà) came too early: write stroke 4 (piě) first.");
+  CHECK(remark_text(result.match.remarks[0], result.match.character) ==
+        "Stroke 5 (nà) came too early: write stroke 4 (piě) first.");
   CHECK(result.strokes_written == 5);
   CHECK(result.strokes_completed < 5);  // the session waited for stroke 4, and then for 5
   CHECK(std::isnan(result.time));

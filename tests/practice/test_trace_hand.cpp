@@ -5,6 +5,7 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
@@ -193,7 +194,9 @@ TEST_CASE("a trace drawn exactly on the template is completed under guidance, an
     CHECK(score_page(page, recording).front().strokes_completed == placed.character.stroke_count());
     const std::vector<PenPath> drawn = pen_paths(recording, placed.placement);
     CHECK(drawn.size() == trace.strokes.size());
-    for (const StrokeRemark& remark : match_strokes(placed.character, drawn).remarks) FAIL_CHECK(remark.reason);
+    for (const StrokeRemark& remark : match_strokes(placed.character, drawn).remarks) {
+      FAIL_CHECK(remark_text(remark, placed.character));
+    }
   }
 }
 
@@ -207,9 +210,11 @@ TEST_CASE("the device's path matches the same strokes as the pen's, accepted by 
   for (const FeedbackMode mode : {FeedbackMode::vision, FeedbackMode::force}) {
     const Recording recording = follow_trace(page, trace_of(placed.character.code, paths), session({}, mode));
     const MatchResult drawn = match_strokes(placed.character, pen_paths(recording, placed.placement));
-    for (const StrokeRemark& remark : drawn.remarks) INFO(remark.reason);
+    for (const StrokeRemark& remark : drawn.remarks) INFO(remark_text(remark, drawn.character));
     REQUIRE(drawn.remarks.size() == written.remarks.size());
-    for (std::size_t i = 0; i < drawn.remarks.size(); ++i) CHECK(drawn.remarks[i].reason == written.remarks[i].reason);
+    for (std::size_t i = 0; i < drawn.remarks.size(); ++i) {
+      CHECK(remark_text(drawn.remarks[i], drawn.character) == remark_text(written.remarks[i], written.character));
+    }
   }
 }
 

@@ -46,8 +46,8 @@ function remarksOf(lesson, score) {
   }
   const list = create("ol", "remarks");
   score.remarks.forEach((remark, i) => {
-    const item = create("li"), button = create("button", "", remark.reason);
-    const chinese = create("small", "", remark.reason_zh);
+    const item = create("li"), button = create("button", "", remark.english);
+    const chinese = create("small", "", remark.chinese);
     chinese.lang = "zh";
     button.append(chinese);
     const show = () => lesson.point(() => markRemarks(lesson, score, i));

@@ -16,8 +16,17 @@ import { replay } from "./recorder.js";
  * @property {Score} guided of where the pen was
  * @property {Score} own of where the pointer was
  *
- * @typedef {ReturnType<import("../calligraphy.js").Library["score"]>} Score
+ * @typedef {ReturnType<typeof said>} Score
  */
+
+/**
+ * A score with the texts of its remarks, since no function reaches the other thread.
+ * @param {ReturnType<import("../calligraphy.js").Library["score"]>} score
+ */
+const said = (score) => ({
+  ...score,
+  remarks: score.remarks.map(({ text, ...remark }) => ({ ...remark, english: text("en"), chinese: text("zh") })),
+});
 
 const ready = load().then(async (library) => ({ library, characters: await openCharacters(library) }));
 
@@ -38,7 +47,7 @@ function judged(library, set, { character, recorded, tolerance }) {
     const recording = library.recording_create(page, 1000);
     try {
       replay(recorded, tick, isOwn, () => library.recording_add(recording, tick));
-      return library.score(recording, 0, tolerance);
+      return said(library.score(recording, 0, tolerance));
     } finally {
       library.free(recording);
     }

@@ -99,14 +99,15 @@ def _show_recording(self: cal.Recording) -> str:
 
 @_method(cal.StrokeRemark, "_repr_html_")
 def _show_remark(self: cal.StrokeRemark) -> str:
-    """What a notebook shows: what is wrong and what to do, as a table."""
-    return html_table([_remark(self)], _REMARK)
+    """What a notebook shows: what is wrong, as a table."""
+    return html_table([_remark(self)], _REMARK[:2])
 
 
 @_method(cal.MatchResult, "_repr_html_")
 def _show_match(self: cal.MatchResult) -> str:
     """What a notebook shows: the remarks, as a table."""
-    return html_table(map(_remark, self.remarks), _REMARK) if self.remarks else "no remarks"
+    rows = [_remark(remark, remark.text(self.character)) for remark in self.remarks]
+    return html_table(rows, _REMARK) if rows else "no remarks"
 
 
 @_method(cal.CharacterScore, "_repr_html_")
@@ -141,8 +142,8 @@ _REMARK = ("remark", "stroke", "what to do")
 _ELEMENTS = ("contour", "external_sequence", "internal_sequence", "fidelity")
 
 
-def _remark(remark: cal.StrokeRemark) -> tuple[str, str, str]:
-    return remark.kind.name, str(remark.stroke + 1) if remark.stroke >= 0 else "", remark.reason
+def _remark(remark: cal.StrokeRemark, *what: str) -> tuple[str, ...]:
+    return remark.kind.name, str(remark.stroke + 1) if remark.stroke >= 0 else "", *what
 
 
 def _number(value: float) -> str:

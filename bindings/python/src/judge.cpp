@@ -1,8 +1,10 @@
 // What was written: pen traces, matching, recognition and the motion of a pen.
+#include <map>
 #include <optional>
 #include <variant>
 
 #include <calligraphy/judge/dtw_distance.hpp>
+#include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/judge/writing_motion.hpp>
 
@@ -66,7 +68,23 @@ void add_judge(py::module_& module) {
       .def_static("lenient", &JudgeTolerances::lenient)
       .def_static("normal", &JudgeTolerances::normal)
       .def_static("strict", &JudgeTolerances::strict);
-  add_types<DrawnStroke, StrokeRemark, RecognisedCharacter, AffineMap, PenKinematics, WritingMotion>(module);
+  add_struct<StrokeRemark>(module).def(
+      "text",
+      [](const StrokeRemark& self, const Character& character, const std::string& language) {
+        return remark_text(self, character, Language(language));
+      },
+      "character"_a, "language"_a = "en",
+      "What is wrong and what to do, in a sentence or two. character: that of the MatchResult. language: the code of one "
+      "of languages(). Raises InvalidValue when the remark names a stroke that the character does not have.");
+  module.def(
+      "languages",
+      [] {
+        std::map<std::string, std::string> names;
+        for (const Language& language : languages()) names.emplace(language.code(), language.name());
+        return names;
+      },
+      "The languages in which people can be told what to do: names by code.");
+  add_types<DrawnStroke, RecognisedCharacter, AffineMap, PenKinematics, WritingMotion>(module);
   add_struct<MatchResult>(module).def("count", &MatchResult::count, "kind"_a);
 
   py::class_<PenTrace>(module, "PenTrace")

@@ -728,26 +728,28 @@ typedef struct calligraphy_remark {
   int32_t other_stroke;  ///< the stroke that was due, or written before; of an extra pen-down, that it attempts
   double place[2];       ///< to point at, in the square of the character [em]
   uint32_t other_character;  ///< code point of the character that the writing is nearer to; 0: none
+  int32_t direction;         ///< a calligraphy_direction: that of the pen-down, where it matters
+  double length;             ///< that of the pen-down, as calligraphy_drawn_stroke has it; NaN where it does not matter [1]
+  double evidence;           ///< how sure or how grave it is; infinite: always made [1]
 } calligraphy_remark;
+
+/// Number of languages in which people can be told what to do.
+CALLIGRAPHY_API calligraphy_status calligraphy_language_count(int32_t* count);
+
+/// The code of the language with this index, such as "en" or "zh"; in static storage.
+CALLIGRAPHY_API calligraphy_status calligraphy_language_code(int32_t index, const char** code);
 
 /// Number of remarks.
 CALLIGRAPHY_API calligraphy_status calligraphy_match_remark_count(const calligraphy_match* match, int32_t* count);
 
-/// The remark with this index, and what is wrong and what to do, in a sentence or two for people, in English. The text
-/// is in UTF-8 and valid as long as the match. Both are optional.
+/// The remark with this index.
 CALLIGRAPHY_API calligraphy_status calligraphy_match_remark(const calligraphy_match* match, int32_t index,
-                                                            calligraphy_remark* remark, const char** reason);
+                                                            calligraphy_remark* remark);
 
-/// Language of a text for people.
-typedef enum calligraphy_language {
-  CALLIGRAPHY_LANGUAGE_ENGLISH = 0,  ///< as calligraphy_match_remark() has it
-  CALLIGRAPHY_LANGUAGE_CHINESE = 1   ///< simplified
-} calligraphy_language;
-
-/// What the remark with this index says to people, in UTF-8 and valid as long as the match. `language`: a
-/// calligraphy_language.
+/// What the remark with this index says to people: what is wrong and what to do, in a sentence or two, in UTF-8 and
+/// valid as long as the match. `language`: its code; null: English.
 CALLIGRAPHY_API calligraphy_status calligraphy_match_remark_text(const calligraphy_match* match, int32_t index,
-                                                                 int32_t language, const char** text);
+                                                                 const char* language, const char** text);
 
 // How well it was written.
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <calligraphy/judge/pen_path.hpp>
+#include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/pictures/stroke_style.hpp>
 
@@ -19,6 +20,6 @@ namespace calligraphy {
 /// @throws ValueError when the match does not belong to these paths, FormatError when the title is not UTF-8
 std::string replay_picture(const Character& character, std::span<const PenPath> paths, const MatchResult& match,
                            std::span<const PenPath> guided, const std::string& title,
-                           StrokeStyle style = StrokeStyle::ink, Language language = Language::english);
+                           StrokeStyle style = StrokeStyle::ink, const Language& language = {});
 
 }  // namespace calligraphy

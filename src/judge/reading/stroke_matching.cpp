@@ -205,6 +205,7 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   }
   MatchResult result = std::move(matched[best].result);
   result.accepted = static_cast<int>(best);
+  result.character = accepted[best];
   result.remarks = remarks_on(accepted[best], paths, result.drawn, result.fit,
                               {matched[best].reading.order_evidence, tolerances.evidence}, other);
   return result;

@@ -9,7 +9,6 @@
 #include "judge/pens/resemblance.hpp"
 #include "judge/pens/writing_box.hpp"
 #include "judge/reading/writing_order.hpp"
-#include "remark_words.hpp"
 
 namespace calligraphy {
 namespace {
@@ -20,8 +19,7 @@ class Remarks {
  public:
   Remarks(const Character& character, std::span<const PenPath> paths, std::span<const DrawnStroke> drawn,
           const AffineMap& fit, const RemarkEvidence& evidence)
-      : character_(character),
-        strokes_(strokes(character)),
+      : strokes_(strokes(character)),
         paths_(paths),
         drawn_(drawn),
         fit_(fit),
@@ -54,12 +52,8 @@ class Remarks {
  private:
   const DrawnStroke& at(int path) const { return drawn_[static_cast<std::size_t>(path)]; }
 
-  void add(StrokeRemark remark) {
-    if (remark.evidence < evidence_.least) return;
-    RemarkWords words = words_of(remark, drawn_, character_.code, strokes_);
-    remark.reason = std::move(words.english);
-    remark.reason_zh = std::move(words.chinese);
-    remarks_.push_back(std::move(remark));
+  void add(const StrokeRemark& remark) {
+    if (remark.evidence >= evidence_.least) remarks_.push_back(remark);
   }
 
   void tell_other(const OtherCharacter& other) {
@@ -91,7 +85,9 @@ class Remarks {
            .stroke = drawn.stroke,
            .stroke_count = drawn.stroke_count,
            .place = place_of_path(path),
-           .evidence = evidence});
+           .evidence = evidence,
+           .length = drawn.length,
+           .direction = drawn.direction});
     };
     if (goes_on) tell_of_stroke(StrokeRemarkKind::broken, std::max(1.0, shorter_share(path) / short_share));
     if (drawn.stroke_count > 1) tell_of_stroke(StrokeRemarkKind::joined, 0.5 * drawn.stroke_count);
@@ -108,12 +104,13 @@ class Remarks {
                         .path_count = 1,
                         .other_stroke = at(path).attempt,
                         .place = place_of_path(path),
-                        .evidence = path_length(fitted(path)) / tap_length};
+                        .evidence = path_length(fitted(path)) / tap_length,
+                        .direction = at(path).direction};
     for (const int other : written_) {
       const int beyond = remark.other_stroke - at(other).stroke;
       if (0 <= beyond && beyond < at(other).stroke_count) remark.other_path = other;
     }
-    add(std::move(remark));
+    add(remark);
   }
 
   void tell_exchange(const Exchange& exchange) {
@@ -188,7 +185,6 @@ class Remarks {
     return fit_.linear.inverse() * (points_along(line, path_length(line), 3)[1] - fit_.offset);
   }
 
-  const Character& character_;
   const std::vector<Stroke> strokes_;
   const std::span<const PenPath> paths_;
   const std::span<const DrawnStroke> drawn_;

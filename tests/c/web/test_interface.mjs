@@ -183,8 +183,10 @@ test("strokes are matched", () => {
   const { drawn, remarks } = library.match(cross, 0, [down, across]);
   assert.deepEqual(drawn.map(({ stroke }) => stroke), [1, 0]);
   assert.equal(remarks.length, 1);
-  assert.equal(remarks[0].reason, "Stroke 2 (shù) came too early: write stroke 1 (héng) first.");
-  assert.equal(remarks[0].reason_zh, "第2笔（竖）写早了，先写第1笔（横）。");
+  assert.equal(remarks[0].text(), "Stroke 2 (shù) came too early: write stroke 1 (héng) first.");
+  assert.equal(remarks[0].text("zh"), "第2笔（竖）写早了，先写第1笔（横）。");
+  assert.throws(() => remarks[0].text("tlh"), /language: expected one of en, zh, not tlh/);
+  assert.deepEqual(library.languages(), ["en", "zh"]);
   assert.equal(remarks[0].kind, constants.REMARK_ORDER);
   const asPolylines = [across, down].map((path) => Float64Array.from(path.flat()));
   assert.deepEqual(library.match(cross, 0, asPolylines).remarks, []);
@@ -236,7 +238,7 @@ test("what was written is scored", () => {
   assert.equal(swapped.direction_mistakes, 1);
   assert.deepEqual(swapped.strokes.map(({ pen_down, completed }) => [pen_down, completed]), [[-1, 0], [0, 0]]);
   assert.ok(Number.isNaN(swapped.time) && Number.isNaN(swapped.strokes[0].rms_error));
-  assert.match(swapped.remarks[0].reason, /Stroke/);
+  assert.match(swapped.remarks[0].text(), /Stroke/);
   refuses(() => library.score(recordingOf(cross, []), 1), constants.INVALID_VALUE, /character = 1/);
   refuses(() => library.score(cross, 0), constants.INVALID_HANDLE, /a handle of a page/);
 });

@@ -2,15 +2,16 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/model/character_set.hpp>
-
-#include <judge/remarks/remark_words.hpp>
 
 #include "../catch.hpp"
 #include "../characters.hpp"
@@ -39,20 +40,24 @@ std::vector<PenPath> in_order(const Character& character, const std::vector<std:
   return drawn;
 }
 
+Said in_both(const StrokeRemark& remark, const Character& character) {
+  return {remark_text(remark, character), remark_text(remark, character, Language("zh"))};
+}
+
 /// What the only remark says, which is of this kind.
 Said said(Kind kind, const Character& character, const std::vector<PenPath>& paths,
           const CharacterIndex* others = nullptr) {
   const MatchResult match = match_strokes(character, paths, {}, others);
   REQUIRE(match.remarks.size() == 1);
   CHECK(match.remarks[0].kind == kind);
-  return {match.remarks[0].reason, match.remarks[0].reason_zh};
+  return in_both(match.remarks[0], character);
 }
 
 /// What a remark would say, of a pen-down like this.
-Said said(const StrokeRemark& remark, const Character& character, const DrawnStroke& drawn = {.length = 1.0}) {
-  const std::vector<DrawnStroke> all(static_cast<std::size_t>(std::max(remark.path, 0)) + 1, drawn);
-  const RemarkWords words = words_of(remark, all, character.code, strokes(character));
-  return {words.english, words.chinese};
+Said said(StrokeRemark remark, const Character& character, const DrawnStroke& drawn = {.length = 1.0}) {
+  remark.length = drawn.length;
+  remark.direction = drawn.direction;
+  return in_both(remark, character);
 }
 
 /// A cross on a base line, 土 or 士; `upper` is the width of the cross [em].
@@ -181,8 +186,9 @@ TEST_CASE("of a missing stroke it is said where it belongs", "[judge]") {
   REQUIRE(match.remarks.size() == places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     const std::string number = std::to_string(i + 1);
-    CHECK(match.remarks[i].reason == "Stroke " + number + " (héng) is missing: it belongs " + places[i].first + ".");
-    CHECK(match.remarks[i].reason_zh == "缺少第" + number + "笔（横），它应该在" + places[i].second + "。");
+    CHECK(in_both(match.remarks[i], match.character) ==
+          Said("Stroke " + number + " (héng) is missing: it belongs " + places[i].first + ".",
+               "缺少第" + number + "笔（横），它应该在" + places[i].second + "。"));
   }
   const Character three = built_in("三");
   CHECK(said(Kind::missing, three, in_order(three, {0, 1})) ==
@@ -194,7 +200,7 @@ TEST_CASE("of a missing stroke it is said where it belongs", "[judge]") {
   const StrokeInput level{1, {{0.1, 0.5}, {0.9, 0.5}}};
   const MatchResult one = match_strokes(make_character(U'一', {&level, 1}), std::vector<PenPath>());
   REQUIRE(one.remarks.size() == 1);
-  CHECK(one.remarks[0].reason == "Stroke 1 (héng) is missing: it belongs in the middle.");
+  CHECK(remark_text(one.remarks[0], one.character) == "Stroke 1 (héng) is missing: it belongs in the middle.");
 }
 
 TEST_CASE("of a line too many it is said by its number to leave it out, or how to write it", "[judge]") {
@@ -240,9 +246,8 @@ TEST_CASE("whatever is wrong is said in short sentences, in both languages", "[j
   const auto check = [&seen](const Character& character, const std::vector<PenPath>& drawn) {
     for (const StrokeRemark& remark : match_strokes(character, drawn, JudgeTolerances::strict()).remarks) {
       ++seen[remark.kind];
-      CAPTURE(encode_utf8(character.code), remark.reason, remark.reason_zh);
-      const std::string& english = remark.reason;
-      const std::string& chinese = remark.reason_zh;
+      const auto [english, chinese] = in_both(remark, character);
+      CAPTURE(encode_utf8(character.code), english, chinese);
       const bool is_sentence = 'A' <= english.front() && english.front() <= 'Z' && english.ends_with('.');
       const bool is_short = length_in_characters(english) <= 120 && length_in_characters(chinese) <= 60;
       const bool is_plain = english.find("pen-down") == english.npos && english.find("  ") == english.npos;
@@ -299,4 +304,57 @@ TEST_CASE("whatever is wrong is said in short sentences, in both languages", "[j
     CAPTURE(to_string(kind));
     CHECK(seen[kind] > 20);
   }
+}
+
+TEST_CASE("each language has every text, and fills in nothing that English does not", "[judge]") {
+  const auto words_in = [](const std::string& text) {
+    std::set<std::string> words;
+    for (std::size_t at = text.find('{'); at != text.npos; at = text.find('{', at + 1)) {
+      words.insert(text.substr(at, text.find('}', at) + 1 - at));
+    }
+    return words;
+  };
+  const auto is_rule = [](std::string_view key) { return key.starts_with("ordinal."); };  // each language has its own
+  const Language english;
+  for (const Language& language : languages()) {
+    std::vector<std::string_view> keys = language.keys(), expected = english.keys();
+    std::erase_if(keys, is_rule);
+    std::erase_if(expected, is_rule);
+    CAPTURE(language.name());
+    CHECK(keys == expected);
+    for (const std::string_view key : keys) {
+      const auto here = words_in(language.text(key));
+      auto there = words_in(english.text(key));
+      if (key == "stroke") there.insert("{name}");  // which is Chinese
+      CAPTURE(key, language.text(key));
+      CHECK((!language.text(key).empty() && std::includes(there.begin(), there.end(), here.begin(), here.end())));
+    }
+  }
+  CHECK_THROWS_WITH(Language("tlh"), "language \"tlh\": expected one of en, zh");
+}
+
+TEST_CASE("every kind of remark, on one stroke or several, is said in full in every language", "[judge]") {
+  const Character eternal = built_in("永");
+  for (const Language& language : languages()) {
+    for (int kind = 0; kind <= static_cast<int>(Kind::lookalike); ++kind) {
+      for (const int count : {1, 2, 3}) {
+        for (const int stroke : {0, 2}) {
+          for (const int other : {-1, 1, 4}) {
+            for (const double length : {0.2, 1.0}) {
+              for (const WritingDirection direction : {WritingDirection::forwards, WritingDirection::backwards}) {
+                const StrokeRemark remark{.kind = Kind(kind), .path = 21, .path_count = 1, .stroke = stroke,
+                                          .stroke_count = count, .other_path = other, .other_stroke = other,
+                                          .other_character = U'水', .length = length, .direction = direction};
+                const std::string text = remark_text(remark, eternal, language);
+                CAPTURE(language.name(), kind, count, stroke, other, text);
+                CHECK((text.size() > 10 && text.find_first_of("{}") == text.npos));
+              }
+            }
+          }
+        }
+      }
+    }
+  }
+  CHECK_THROWS_WITH(remark_text({.stroke = 3, .stroke_count = 3}, eternal),
+                    "remark on stroke 6: the character has 5");
 }

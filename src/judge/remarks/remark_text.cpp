@@ -1,0 +1,197 @@
+#include <calligraphy/judge/remark_text.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/judge/pen_path.hpp>
+
+#include "judge/pens/resemblance.hpp"
+#include "judge/reading/stroke_direction.hpp"
+
+namespace calligraphy {
+namespace {
+
+constexpr double straight = 0.85;  // distance of the ends, of the length, below which they do not tell the way [1]
+// A shorter side of a box, of the longer, along which places are not told apart: of strokes, and of characters [1].
+constexpr double flat_stroke = 0.4, flat_character = 0.15;
+
+/// Keys of the thirds of a box, from the bottom left, row by row.
+constexpr std::array<std::string_view, 9> thirds = {
+    "place.bottom_left", "place.bottom",   "place.bottom_right", "place.left",     "place.middle",
+    "place.right",       "place.top_left", "place.top",          "place.top_right"};
+constexpr std::size_t middle_of_box = 4;
+
+/// Index in `thirds` of the third of a box, across and up, in which a point lies.
+std::size_t place_in(const Eigen::AlignedBox2d& box, double flat, const Point& point) {
+  const Point sides = box.sizes(), from = point - box.min();
+  std::array<std::size_t, 2> third = {1, 1};
+  for (const int i : {0, 1}) {
+    if (sides[i] <= flat * sides.maxCoeff()) continue;
+    third[static_cast<std::size_t>(i)] = static_cast<std::size_t>(std::clamp(3.0 * from[i] / sides[i], 0.0, 2.0));
+  }
+  return 3 * third[1] + third[0];
+}
+
+Eigen::AlignedBox2d box_of(const std::vector<Point>& path) {
+  Eigen::AlignedBox2d box;
+  for (const Point& point : path) box.extend(point);
+  return box;
+}
+
+/// "1st", "2nd", "11th", of an index from 0: by as many of the last digits as the language has a text for.
+std::string ordinal(int index, const Language& language) {
+  const std::string number = std::to_string(index + 1);
+  std::string text;
+  for (std::size_t first = 0; text.empty() && first < number.size(); ++first) {
+    text = language.text("ordinal." + number.substr(first), {{"number", number}});
+  }
+  return text.empty() ? language.text("ordinal", {{"number", number}}) : text;
+}
+
+/// The words of a remark.
+class Sentence {
+ public:
+  Sentence(const StrokeRemark& remark, const Character& character, const Language& language)
+      : remark_(remark), code_(character.code), strokes_(strokes(character)), language_(language) {
+    require_stroke(remark.stroke, std::max(remark.stroke_count, 1));
+    require_stroke(remark.other_stroke, 1);
+  }
+
+  std::string text() const {
+    switch (remark_.kind) {
+      case StrokeRemarkKind::order:
+        return order();
+      case StrokeRemarkKind::direction:
+        return say(starts_at_a_side(remark_.stroke) ? "direction.placed" : "direction");
+      case StrokeRemarkKind::shape: {
+        const std::string_view key = remark_.length < least_share ? "part" : "shape";
+        const bool is_straight = remark_.stroke_count == 1 && is_told_by_its_ends(remark_.stroke);
+        return say(std::string(key) + (is_straight ? ".straight" : ""));
+      }
+      case StrokeRemarkKind::missing:
+        return say(place_in_character() == middle_of_box ? "missing.middle" : "missing");
+      case StrokeRemarkKind::extra:
+        return extra();
+      default:
+        return say(to_string(remark_.kind));
+    }
+  }
+
+ private:
+  void require_stroke(int first, int count) const {
+    if (first < 0 || static_cast<std::size_t>(first + count) <= strokes_.size()) return;
+    throw ValueError("remark on stroke " + std::to_string(first + count) + ": the character has " +
+                     std::to_string(strokes_.size()));
+  }
+
+  std::string order() const {
+    if (remark_.other_stroke < 0) return say("order.reversed");
+    if (remark_.other_path >= 0) return say("order.exchanged");
+    if (remark_.stroke > remark_.other_stroke) return say("order.early");
+    return say(remark_.stroke == 0 ? "order.first" : "order.late");
+  }
+
+  std::string extra() const {
+    if (remark_.other_stroke < 0) return say("extra");
+    if (remark_.direction == WritingDirection::backwards) {
+      return say(starts_at_a_side(remark_.other_stroke) ? "extra.backwards.placed" : "extra.backwards");
+    }
+    return say(remark_.other_path < 0 ? "extra.unlike" : "extra.twice");
+  }
+
+  /// The text of a key, with all that a remark may name.
+  std::string say(std::string_view key) const {
+    const bool is_exchange = remark_.kind == StrokeRemarkKind::order && remark_.other_path >= 0;
+    const auto [first, other] = is_exchange ? std::minmax({remark_.stroke, remark_.other_stroke})
+                                            : std::pair(remark_.stroke, remark_.other_stroke);
+    const auto [line, other_line] =
+        remark_.other_path >= 0 ? std::minmax({remark_.path, remark_.other_path}) : std::pair(remark_.path, -1);
+    const Ends ends = ends_of(remark_.kind == StrokeRemarkKind::extra ? remark_.other_stroke : remark_.stroke);
+    const std::size_t start = remark_.kind == StrokeRemarkKind::missing ? place_in_character() : ends.start;
+    return language_.text_for(remark_.stroke_count, key,
+                              {{"strokes", all_strokes()},
+                               {"first", stroke(first)},
+                               {"first_number", std::to_string(first + 1)},
+                               {"last_number", std::to_string(remark_.stroke + remark_.stroke_count)},
+                               {"before_number", std::to_string(remark_.stroke)},
+                               {"other", stroke(other)},
+                               {"line", ordinal(line, language_)},
+                               {"other_line", ordinal(other_line, language_)},
+                               {"start", language_.text(thirds[start])},
+                               {"end", language_.text(thirds[ends.end])},
+                               {"written", encode_utf8(remark_.other_character)},
+                               {"asked", encode_utf8(code_)}});
+  }
+
+  /// "2 (héng)"; empty of none.
+  std::string stroke(int index) const {
+    if (index < 0) return {};
+    const TypicalStroke& type = *strokes_[static_cast<std::size_t>(index)].type;
+    return language_.text("stroke",
+                          {{"number", std::to_string(index + 1)}, {"pinyin", type.pinyin}, {"name", type.name}});
+  }
+
+  /// "2 (héng) to 4 (nà)"
+  std::string all_strokes() const {
+    const std::string first = stroke(remark_.stroke);
+    if (remark_.stroke_count < 2) return first;
+    return language_.text(remark_.stroke_count == 2 ? "strokes.two" : "strokes.more",
+                          {{"first", first}, {"last", stroke(remark_.stroke + remark_.stroke_count - 1)}});
+  }
+
+  std::vector<Point> line_of(int index) const {
+    return middle_line(strokes_[static_cast<std::size_t>(index)], {Point::Zero(), 1.0});
+  }
+
+  /// Where a stroke starts and ends, as thirds of its box.
+  struct Ends {
+    std::size_t start = middle_of_box, end = middle_of_box;
+  };
+
+  Ends ends_of(int index) const {
+    if (index < 0) return {};
+    const std::vector<Point> line = line_of(index);
+    const Eigen::AlignedBox2d box = box_of(line);
+    return {place_in(box, flat_stroke, line.front()), place_in(box, flat_stroke, line.back())};
+  }
+
+  /// Whether it helps to say where a stroke starts.
+  bool starts_at_a_side(int index) const {
+    const Ends ends = ends_of(index);
+    return ends.start != ends.end && ends.start != middle_of_box;
+  }
+
+  /// Whether a stroke is so straight that its ends say how it runs.
+  bool is_told_by_its_ends(int index) const {
+    const std::vector<Point> line = line_of(index);
+    return (line.front() - line.back()).norm() >= straight * path_length(line);
+  }
+
+  /// The third of the character in which the middle of the remark's stroke lies.
+  std::size_t place_in_character() const {
+    Eigen::AlignedBox2d box;
+    for (int i = 0; i < static_cast<int>(strokes_.size()); ++i) box.extend(box_of(line_of(i)));
+    const std::vector<Point> line = line_of(remark_.stroke);
+    return place_in(box, flat_character, points_along(line, path_length(line), 3)[1]);
+  }
+
+  const StrokeRemark& remark_;
+  const char32_t code_;
+  const std::vector<Stroke> strokes_;
+  const Language& language_;
+};
+
+}  // namespace
+
+std::string remark_text(const StrokeRemark& remark, const Character& character, const Language& language) {
+  return Sentence(remark, character, language).text();
+}
+
+}  // namespace calligraphy
