@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/practice/hint_text.hpp>
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/recording.hpp>
 

@@ -246,10 +246,11 @@ function bind(module) {
   /**
    * The words for the hint of a tick; empty without one.
    * @param {Structs["tick"]} tick
+   * @param {string} [language] its code, such as "zh"
    */
-  function hint(tick) {
+  function hint(tick, language = "en") {
     const words = new Uint8Array(128);
-    library.hint_text(tick, words, words.length);
+    library.hint_text(tick, language, words, words.length);
     return text(words);
   }
 

@@ -1,6 +1,8 @@
 #include <cstring>
 #include <string_view>
 
+#include <calligraphy/practice/hint_text.hpp>
+
 #include "ticks.hpp"
 
 namespace calligraphy::c {
@@ -102,12 +104,14 @@ calligraphy_status calligraphy_renderer_skip_stroke(calligraphy_renderer* render
   return CALLIGRAPHY_OK;
 }
 
-calligraphy_status calligraphy_hint_text(const calligraphy_tick* tick, char* text, size_t capacity) {
+calligraphy_status calligraphy_hint_text(const calligraphy_tick* tick, const char* language, char* text,
+                                         size_t capacity) {
   return guarded([&] {
     const calligraphy_tick given = read_struct(tick, "calligraphy_tick");
     target(text, "text");
     const auto hint = enumeration("hint", given.hint, WritingHint::warm_motors);
-    const std::string words = hint_text(hint, {given.to_start[0], given.to_start[1]});
+    const Language chosen = language ? Language(language) : Language();
+    const std::string words = hint_text(hint, {given.to_start[0], given.to_start[1]}, chosen);
     if (words.size() >= capacity) {
       throw Refusal(CALLIGRAPHY_TOO_SMALL, "capacity = " + std::to_string(capacity) + ", but the text has " +
                                                std::to_string(words.size() + 1) + " bytes with its zero");

@@ -403,6 +403,7 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
   std::uint32_t code = 0;
   std::int32_t number = 0;
   double points[3] = {};
+  char hint[128] = {};
   const std::uint32_t one_point = 1;
   constexpr auto value = CALLIGRAPHY_INVALID_VALUE;
   constexpr auto normal = CALLIGRAPHY_TOLERANCE_NORMAL;
@@ -538,7 +539,9 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
        [&] { return calligraphy_renderer_update(all.renderer.get(), nullptr, &all.tick); }},
       {"update", value, "calligraphy_tick is null",
        [&] { return calligraphy_renderer_update(all.renderer.get(), &all.state, nullptr); }},
-      {"hint", value, "text is null", [&] { return calligraphy_hint_text(&all.tick, nullptr, 3); }},
+      {"hint", value, "text is null", [&] { return calligraphy_hint_text(&all.tick, "en", nullptr, 3); }},
+      {"hint", value, "language \"xx\": expected one of en, ",
+       [&] { return calligraphy_hint_text(&all.tick, "xx", hint, sizeof hint); }},
       {"step", value, "now = nan s", [&] { return calligraphy_servo_step(all.servo.get(), not_a_number, nullptr); }},
       {"match", value, "points is null",
        [&] { return calligraphy_match_strokes(all.page.get(), 0, nullptr, &one_point, 1, normal, &match); }},

@@ -7,6 +7,7 @@
 #include <calligraphy/devices/pointer_device.hpp>
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/practice/hint_text.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 
 #include "allocation_counter.hpp"
@@ -513,18 +514,21 @@ TEST_CASE("a hint has the words of C++") {
   tick.hint = CALLIGRAPHY_HINT_TOO_FAR;
   tick.to_start[0] = -0.012;
   char text[128];
-  REQUIRE(calligraphy_hint_text(&tick, text, sizeof text) == CALLIGRAPHY_OK);
+  REQUIRE(calligraphy_hint_text(&tick, nullptr, text, sizeof text) == CALLIGRAPHY_OK);
   CHECK(text == hint_text(WritingHint::too_far, {-0.012, 0.0}));
-  CHECK(calligraphy_hint_text(&tick, text, std::strlen(text)) == CALLIGRAPHY_TOO_SMALL);
-  CHECK(calligraphy_hint_text(&tick, text, std::strlen(text) + 1) == CALLIGRAPHY_OK);
+  REQUIRE(calligraphy_hint_text(&tick, "zh", text, sizeof text) == CALLIGRAPHY_OK);
+  CHECK(text == hint_text(WritingHint::too_far, {-0.012, 0.0}, Language("zh")));
+  REQUIRE(calligraphy_hint_text(&tick, "en", text, sizeof text) == CALLIGRAPHY_OK);
+  CHECK(calligraphy_hint_text(&tick, nullptr, text, std::strlen(text)) == CALLIGRAPHY_TOO_SMALL);
+  CHECK(calligraphy_hint_text(&tick, nullptr, text, std::strlen(text) + 1) == CALLIGRAPHY_OK);
   char small[8] = "before";
-  CHECK(calligraphy_hint_text(&tick, small, sizeof small) == CALLIGRAPHY_TOO_SMALL);
+  CHECK(calligraphy_hint_text(&tick, nullptr, small, sizeof small) == CALLIGRAPHY_TOO_SMALL);
   CHECK(small == std::string("before"));
   tick.hint = CALLIGRAPHY_HINT_NONE;
-  REQUIRE(calligraphy_hint_text(&tick, text, 1) == CALLIGRAPHY_OK);
+  REQUIRE(calligraphy_hint_text(&tick, nullptr, text, 1) == CALLIGRAPHY_OK);
   CHECK(text == std::string());
   tick.hint = CALLIGRAPHY_HINT_AT_END;
   tick.to_start[0] = 1e300;
-  REQUIRE(calligraphy_hint_text(&tick, text, sizeof text) == CALLIGRAPHY_OK);
+  REQUIRE(calligraphy_hint_text(&tick, nullptr, text, sizeof text) == CALLIGRAPHY_OK);
   CHECK(text == std::string("at the stroke's end: the start is 1000000000 mm to the right"));
 }

@@ -5,6 +5,7 @@
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/pictures/picture.hpp>
+#include <calligraphy/practice/hint_text.hpp>
 #include <calligraphy/practice/mean_interval.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
@@ -100,6 +101,13 @@ void add_practice(py::module_& module) {
       "run_session", reporting(&run_session), "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
       "+ motion(tick, seconds) takes a HapticTick and the period of a tick [s], and returns an Intention in page "
       "coordinates, or None to end.");
+
+  module.def(
+      "hint_text",
+      [](WritingHint hint, const ArrayLike& to_start, const std::string& language) {
+        return hint_text(hint, point(to_start, "to_start"), Language(language));
+      },
+      "hint"_a, "to_start"_a, "language"_a = "en");
 
   module.def("page_id", &page_id, "page"_a);
   module.def("score_page", released(&score_page), "page"_a, "recording"_a, "tolerances"_a = JudgeTolerances());

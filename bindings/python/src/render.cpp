@@ -117,11 +117,7 @@ void add_render(py::module_& module) {
   module.def("desk_page", &desk_page, "width"_a, "height"_a, "scale"_a = 1.0);
 
   module.def("to_string", py::overload_cast<WritingHint>(&to_string), "hint"_a,
-             "The words of a hint, such as \"too far from the start\"; \"\" for `none`.");
-  module.def(
-      "hint_text",
-      [](WritingHint hint, const ArrayLike& to_start) { return hint_text(hint, point(to_start, "to_start")); },
-      "hint"_a, "to_start"_a);
+             "The name of a hint, such as \"too_far\"; for people hint_text() puts it into words.");
   const TickColumns columns(module);
 
   py::class_<HapticRenderer>(module, "HapticRenderer", py::is_final(),

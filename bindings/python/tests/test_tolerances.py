@@ -114,13 +114,17 @@ def test_a_stroke_that_is_finished_asks_for_a_lift():
 def test_a_line_for_people_names_the_way_to_the_start():
     kinds = cal.WritingHint
     assert cal.hint_text(kinds.too_far, (-0.0085, 0.0085)) == "too far from the start: 12 mm to the upper left"
-    assert cal.hint_text(kinds.lift_first, (0.1, 0.1)) == cal.to_string(kinds.lift_first)
+    assert cal.hint_text(kinds.lift_first, (0.1, 0.1)) == "lift the pen first"
+    assert cal.hint_text("too_far", (-0.0085, 0.0085), language="zh") == "离起点太远：起点在左上方 12 毫米处"
+    with pytest.raises(cal.InvalidValue, match='language "xx": expected one of en, '):
+        cal.hint_text(kinds.too_far, (0.0, 0.0), language="xx")
 
 
 def test_a_display_has_words_for_every_hint():
-    words = [cal.to_string(hint) for hint in cal.WritingHint]
-    assert words[0] == "" and all(words[1:]) and len(set(words)) == len(words)
-    assert cal.to_string(cal.WritingHint.too_far) == "too far from the start"
+    for language in ("en", "zh"):
+        words = [cal.hint_text(hint, (0.01, 0.0), language) for hint in cal.WritingHint]
+        assert words[0] == "" and all(words[1:]) and len(set(words)) == len(words)
+    assert [cal.to_string(hint) for hint in cal.WritingHint] == [hint.name for hint in cal.WritingHint]
 
 
 def test_a_pen_that_moves_backwards_from_the_end_is_resisted():

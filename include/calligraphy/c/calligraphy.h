@@ -614,9 +614,10 @@ CALLIGRAPHY_API calligraphy_status calligraphy_renderer_restart(calligraphy_rend
 CALLIGRAPHY_API calligraphy_status calligraphy_renderer_skip_stroke(calligraphy_renderer* renderer, int32_t* skipped);
 
 /// The words for a tick's hint, "too far from the start: 12 mm to the upper left", in UTF-8 and terminated by a zero.
-/// Empty without a hint. For the display: it allocates. CALLIGRAPHY_TOO_SMALL if the text does not fit into `capacity`
-/// bytes; 128 are enough.
-CALLIGRAPHY_API calligraphy_status calligraphy_hint_text(const calligraphy_tick* tick, char* text, size_t capacity);
+/// Empty without a hint. `language` is the code of one, such as "zh"; null: "en". For the display: it allocates.
+/// CALLIGRAPHY_TOO_SMALL if the text does not fit into `capacity` bytes; 128 are enough.
+CALLIGRAPHY_API calligraphy_status calligraphy_hint_text(const calligraphy_tick* tick, const char* language, char* text,
+                                                         size_t capacity);
 
 // The servo loop, in the program's own time.
 

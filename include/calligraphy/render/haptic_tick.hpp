@@ -70,13 +70,9 @@ enum class WritingHint : std::uint8_t {
   warm_motors       ///< guided, but the warm motors permit less force than that takes: let them rest
 };
 
-/// "", "write on", "too far from the start", "at the stroke's end", "in the middle of the stroke", "wrong direction",
-/// "another stroke's start", "too far from the stroke", "lift the pen first", "the motors are warm: less force".
+/// "none", "write", "too_far", "at_end", "in_middle", "wrong_direction", "another_stroke", "off_stroke", "lift_first",
+/// "warm_motors"; for people hint_text() of `practice` puts it into words.
 const char* to_string(WritingHint hint) noexcept;
-
-/// The hint in words, with the distance and direction to the start [m, page; y up] if the pen should go there: "too far
-/// from the start: 12 mm to the upper left", "at the stroke's end: the start is 30 mm to the left".
-std::string hint_text(WritingHint hint, const Point& to_start);
 
 /// Result of one servo tick.
 struct HapticTick {

@@ -2,7 +2,7 @@
 #include <numbers>
 #include <string>
 
-#include <calligraphy/render/haptic_tick.hpp>
+#include <calligraphy/practice/hint_text.hpp>
 
 #include "../catch.hpp"
 
@@ -17,7 +17,7 @@ Point way(double degrees, double length) {
 
 }  // namespace
 
-TEST_CASE("a hint says how far the start is and in which of eight directions", "[render]") {
+TEST_CASE("a hint says how far the start is and in which of eight directions", "[practice]") {
   const char* const directions[] = {"to the right", "to the upper right", "straight up",   "to the upper left",
                                     "to the left",  "to the lower left",  "straight down", "to the lower right"};
   for (int i = 0; i < 8; ++i) {
@@ -36,10 +36,21 @@ TEST_CASE("a hint says how far the start is and in which of eight directions", "
         "another stroke's start: that of the one due is 1 mm to the right");
 }
 
-TEST_CASE("a hint that leads nowhere else names no direction", "[render]") {
-  for (const WritingHint hint : {WritingHint::none, WritingHint::write, WritingHint::wrong_direction,
-                                 WritingHint::off_stroke, WritingHint::lift_first, WritingHint::warm_motors}) {
-    CHECK(hint_text(hint, {0.01, 0.01}) == to_string(hint));
-  }
+TEST_CASE("a hint that leads nowhere else names no direction", "[practice]") {
+  const Point anywhere(0.01, 0.01);
+  CHECK(hint_text(WritingHint::none, anywhere).empty());
+  CHECK(hint_text(WritingHint::write, anywhere) == "write on");
+  CHECK(hint_text(WritingHint::wrong_direction, anywhere) == "wrong direction");
+  CHECK(hint_text(WritingHint::off_stroke, anywhere) == "too far from the stroke");
+  CHECK(hint_text(WritingHint::lift_first, anywhere) == "lift the pen first");
+  CHECK(hint_text(WritingHint::warm_motors, anywhere) == "the motors are warm: less force");
   CHECK(hint_text(WritingHint::too_far, {std::nan(""), 0.0}) == "too far from the start");
+}
+
+TEST_CASE("a hint is told in the language asked for", "[practice]") {
+  const Language chinese("zh");
+  CHECK(hint_text(WritingHint::none, {0.01, 0.01}, chinese).empty());
+  CHECK(hint_text(WritingHint::lift_first, {0.01, 0.01}, chinese) == "先提笔");
+  CHECK(hint_text(WritingHint::too_far, {-0.0085, 0.0085}, chinese) == "离起点太远：起点在左上方 12 毫米处");
+  CHECK(hint_text(WritingHint::too_far, {std::nan(""), 0.0}, chinese) == "离起点太远");
 }
