@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <calligraphy/base/error.hpp>
@@ -20,6 +21,8 @@ namespace {
 /// Tells a person each hint once it has lasted: a moving pen passes many that it does not need to hear of.
 class HintTeller {
  public:
+  explicit HintTeller(const Language& language) : language_(language) {}
+
   void look(const LiveView& view) {
     const double now = view.newest.time;
     if (view.hint != hint_) {
@@ -28,13 +31,14 @@ class HintTeller {
       told_ = false;
     }
     if (told_ || hint_ == WritingHint::none || now - since_ < long_enough) return;
-    spdlog::info("{}", hint_text(hint_, view.to_start));
+    spdlog::info("{}", hint_text(hint_, view.to_start, language_));
     told_ = true;
   }
 
  private:
   static constexpr double long_enough = 0.3;  ///< [s]
 
+  Language language_;
   WritingHint hint_ = WritingHint::none;
   double since_ = 0.0;  ///< [s]
   bool told_ = false;
@@ -88,7 +92,7 @@ Recording Pen::replay(const PracticePage& page, const SessionOptions& session) c
 Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
   DeviceFault told = DeviceFault::none;
   bool told_behind = false;
-  HintTeller hints;
+  HintTeller hints(options_.language);
   AdviceTeller advice;
   LiveOptions options;
   options.mode = session.mode;
@@ -107,8 +111,8 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
     }
     if (advice.look(view.advice)) is_new(view.advice);
     if (view.behind > 0.0 && !std::exchange(told_behind, true)) {
-      spdlog::info("the pen is {:.0f} mm behind the paper: bring it in front, where the writing begins",
-                   1e3 * view.behind);
+      const std::string distance = fmt::format("{:.0f}", 1e3 * view.behind);
+      spdlog::info("{}", options_.language.text("write.behind", {{"distance", distance}}));
     }
     hints.look(view);
     stop_key_->look();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <calligraphy/devices/servo_statistics.hpp>
+#include <calligraphy/judge/language.hpp>
 #include <calligraphy/practice/session.hpp>
 
 #include "device_choice.hpp"
@@ -22,6 +23,7 @@ struct PenOptions {
   std::string like = "desktop";  ///< profile that supplies limits and workspace for a recorded trace
   double peak_force = std::numeric_limits<double>::infinity();  ///< limit in addition to the device's own [N]
   double timeout = 600.0;                                       ///< time after which a person's page is aborted [s]
+  Language language;                                            ///< of what a person is told to do
 };
 
 class Pen {
@@ -41,7 +43,7 @@ class Pen {
   Recording write(const PracticePage& page, const SessionOptions& session);
 
   /// What stops the writing of a person, as in "space, Esc or Ctrl-C".
-  const char* stop_keys() const noexcept { return tools::stop_keys(*stop_key_); }
+  std::string stop_keys() const { return tools::stop_keys(*stop_key_, options_.language); }
   /// True if Ctrl-C or the stop key was pressed since the device was opened. write() then throws an Error for a
   /// simulated writer or a trace, and returns what was written so far for a person.
   bool interrupted() const noexcept { return interrupt_->asked() || (stop_key_ && stop_key_->pressed()); }

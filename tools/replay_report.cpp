@@ -10,6 +10,7 @@
 #include <calligraphy/base/text.hpp>
 
 #include "score_json.hpp"
+#include "table_head.hpp"
 
 namespace calligraphy::tools {
 namespace {
@@ -29,38 +30,43 @@ bool is_unclear(const MatchResult& match) {
                       [](const DrawnStroke& drawn) { return drawn.stroke >= 0; });
 }
 
-std::string order_of(const MatchResult& match) {
-  if (is_unclear(match)) return "unclear";
-  const int wrong = match.count(StrokeRemarkKind::order);
-  return wrong == 0 ? "correct" : fmt::format("{} out of order", wrong);
+/// "2 out of order", "1 missing"
+std::string with_count(int count, const std::string& what, const Language& language) {
+  return language.text("cell." + what, {{"count", std::to_string(count)}});
 }
 
-std::string direction_of(const MatchResult& match) {
-  if (is_unclear(match)) return "unclear";
+std::string order_of(const MatchResult& match, const Language& language) {
+  if (is_unclear(match)) return language.text("cell.unclear");
+  const int wrong = match.count(StrokeRemarkKind::order);
+  return wrong == 0 ? language.text("cell.correct") : with_count(wrong, "order", language);
+}
+
+std::string direction_of(const MatchResult& match, const Language& language) {
+  if (is_unclear(match)) return language.text("cell.unclear");
   const int wrong = match.count(StrokeRemarkKind::direction), unclear = match.count(StrokeRemarkKind::shape);
-  if (wrong > 0) return fmt::format("{} backwards", wrong);
-  return unclear == 0 ? "correct" : fmt::format("{} unclear", unclear);
+  if (wrong > 0) return with_count(wrong, "direction", language);
+  return unclear == 0 ? language.text("cell.correct") : with_count(unclear, "direction.unclear", language);
 }
 
 /// "1 joined, 2 missing"
-std::string others(const MatchResult& match) {
+std::string others(const MatchResult& match, const Language& language) {
   using Kind = StrokeRemarkKind;
-  if (match.count(Kind::character) > 0) return "another character";
+  if (match.count(Kind::character) > 0) return language.text("cell.character");
   std::string text;
   for (const Kind kind : {Kind::shape, Kind::joined, Kind::broken, Kind::missing, Kind::extra, Kind::lookalike}) {
     const int count = match.count(kind);
     if (count == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_string(kind));
+    const std::string next = with_count(count, to_string(kind), language);
+    text = text.empty() ? next : language.text("cell.both", {{"first", text}, {"next", next}});
   }
   return text;
 }
 
 /// How the people moved their pens, one line per trace.
-std::string motion_table(const ReplayReport& report) {
-  constexpr const char* columns = "{:<8}{:>8}{:>8}{:>9}{:>8}{:>8}{:>8}{:>8}{:>9}\n";
-  const auto line = fmt::runtime(columns);
-  std::string text = fmt::format(line, "", "paper", "air", "pen-ups", "path", "mean v", "peak v", "peaks", "smooth") +
-                     fmt::format(line, "", "[s]", "[s]", "", "[em]", "[em/s]", "[em/s]", "of v", "SPARC");
+std::string motion_table(const ReplayReport& report, const Language& language) {
+  std::string text = table_head("{:<8}{:>8}{:>8}{:>9}{:>8}{:>8}{:>8}{:>8}{:>9}\n", language,
+                                {"", "column.paper", "column.air", "column.pen_ups", "column.path.em",
+                                 "column.mean_speed.em", "column.peak_speed.em", "column.peaks", "column.smoothness"});
   for (const Replayed& trace : report.traces) {
     const WritingMotion& motion = trace.motion;
     text +=
@@ -76,25 +82,30 @@ std::string motion_table(const ReplayReport& report) {
 std::string name_of_form(const Replayed& trace) { return trace.order.empty() ? trace.source : trace.order; }
 
 /// Of several accepted forms, the one as which each trace was read; traces read as the same form are named together.
-std::string form_lines(const ReplayReport& report) {
+std::string form_lines(const ReplayReport& report, const Language& language) {
   std::map<std::string, std::string> traces;  // by form
   for (const Replayed& trace : report.traces) {
     if (trace.accepted < 2) continue;
     traces[name_of_form(trace)] += fmt::format(" {} {}", trace.position, encode_utf8(trace.guided.character));
   }
   std::string text;
-  for (const auto& [form, read] : traces) text += fmt::format("read as {}:{}\n", form, read);
+  for (const auto& [form, read] : traces) {
+    text += language.text("replay.read_as", {{"form", form}, {"characters", read.substr(1)}}) + "\n";
+  }
   return text;
 }
 
 /// What each trace resembles, the nearest first, with the distances.
-std::string recognised_lines(const ReplayReport& report) {
+std::string recognised_lines(const ReplayReport& report, const Language& language) {
   std::string text;
   for (const Recognised& each : report.recognised) {
-    text += fmt::format("{:>3} {}  resembles:", each.position, encode_utf8(each.character));
-    if (each.as.empty()) text += " no character with as many strokes";
-    for (const RecognisedCharacter& as : each.as) text += fmt::format(" {} {:.3f}", encode_utf8(as.code), as.distance);
-    text += "\n";
+    std::string found;
+    for (const RecognisedCharacter& as : each.as) {
+      found += fmt::format("{}{} {:.3f}", found.empty() ? "" : " ", encode_utf8(as.code), as.distance);
+    }
+    text += fmt::format("{:>3} {}  {}\n", each.position, encode_utf8(each.character),
+                        language.text(found.empty() ? "replay.resembles.none" : "replay.resembles",
+                                      {{"characters", found}}));
   }
   return text;
 }
@@ -145,43 +156,52 @@ Json json_of(const Replayed& trace) {
 }  // namespace
 
 std::string table(const ReplayReport& report, const Language& language) {
-  constexpr const char* head = "{:<8}{:>10}  {:<16}{:<14}{:<22}{:>11}{:>8}{:>8}{:>11}\n";
-  std::string text =
-      fmt::format(fmt::runtime(head), "", "pen-downs", "", "", "", "completed", "", "peak F", "max step");
-  text += fmt::format(fmt::runtime(head), "", "/strokes", "order", "direction", "other", "guided", "faults", "[N]",
-                      "[N/tick]");
+  std::string text = table_head("{:<8}{:>10}  {:<16}{:<14}{:<22}{:>11}{:>8}{:>8}{:>11}\n", language,
+                                {"", "column.pen_downs", "column.order", "column.direction", "column.other",
+                                 "column.guided", "column.faults", "column.peak_force", "column.max_step"});
   std::string remarks;
   for (const Replayed& trace : report.traces) {
     const MatchResult& match = trace.match;
     const std::string character = encode_utf8(trace.guided.character);
     text += fmt::format("{:>3} {}  {:>10}  {:<16}{:<14}{:<22}{:>11}{:>8}{:>8.2f}{:>11.3f}\n", trace.position, character,
-                        fmt::format("{}/{}", strokes_drawn(match), trace.guided.stroke_count), order_of(match),
-                        direction_of(match), others(match),
+                        fmt::format("{}/{}", strokes_drawn(match), trace.guided.stroke_count),
+                        order_of(match, language), direction_of(match, language), others(match, language),
                         fmt::format("{}/{}", trace.guided.strokes_completed, trace.guided.stroke_count), trace.faults,
                         trace.guided.peak_force, trace.guided.max_force_step);
     for (const StrokeRemark& remark : match.remarks) {
-      remarks += fmt::format("{:>3} {}  {}\n", trace.position, character, remark_text(remark, match.character, language));
+      remarks +=
+          fmt::format("{:>3} {}  {}\n", trace.position, character, remark_text(remark, match.character, language));
     }
   }
-  text += fmt::format("limits of {}: force {:.2f} N, force step {:.3f} N/tick\n", report.device, report.peak_force,
-                      report.max_force_step);
-  text += "\n" + motion_table(report);
+  text += language.text("replay.limits", {{"device", report.device},
+                                          {"force", fixed(report.peak_force, 2)},
+                                          {"step", fixed(report.max_force_step, 3)}}) +
+          "\n\n" + motion_table(report, language);
   if (!remarks.empty()) text += "\n" + remarks;
-  const std::string forms = form_lines(report);
+  const std::string forms = form_lines(report, language);
   if (!forms.empty()) text += "\n" + forms;
-  if (!report.recognised.empty()) text += "\n" + recognised_lines(report);
-  const auto right = [&report](std::string (*judged)(const MatchResult&)) {
-    return std::count_if(report.traces.begin(), report.traces.end(),
-                         [judged](const Replayed& trace) { return judged(trace.match) == "correct"; });
+  if (!report.recognised.empty()) text += "\n" + recognised_lines(report, language);
+  const auto right = [&](std::string (*judged)(const MatchResult&, const Language&)) {
+    return std::to_string(std::count_if(report.traces.begin(), report.traces.end(), [&](const Replayed& trace) {
+      return judged(trace.match, language) == language.text("cell.correct");
+    }));
   };
   const auto clean = std::count_if(report.traces.begin(), report.traces.end(),
                                    [](const Replayed& trace) { return trace.match.remarks.empty(); });
-  text += fmt::format("\n{} of {} without a remark, {} in the correct order, {} in the correct direction\n", clean,
-                      report.traces.size(), right(order_of), right(direction_of));
+  text += "\n" +
+          language.text("replay.totals", {{"clean", std::to_string(clean)},
+                                          {"all", std::to_string(report.traces.size())},
+                                          {"order", right(order_of)},
+                                          {"direction", right(direction_of)}}) +
+          "\n";
   if (!report.without_template.empty()) {
-    text += fmt::format("{} not checked, not in the character set:", report.without_template.size());
-    for (const char32_t code : report.without_template) text += " " + encode_utf8(code);
-    text += "\n";
+    std::string characters;
+    for (const char32_t code : report.without_template) {
+      characters += (characters.empty() ? "" : " ") + encode_utf8(code);
+    }
+    text += language.text("replay.not_checked", {{"count", std::to_string(report.without_template.size())},
+                                                 {"characters", characters}}) +
+            "\n";
   }
   return text;
 }

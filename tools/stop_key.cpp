@@ -36,7 +36,9 @@ void StopKey::look() noexcept {
   }
 }
 
-const char* stop_keys(const StopKey& key) noexcept { return key.available() ? "space, Esc or Ctrl-C" : "Ctrl-C"; }
+std::string stop_keys(const StopKey& key, const Language& language) {
+  return key.available() ? language.text("write.stop_keys") : "Ctrl-C";
+}
 
 /// Async-signal-safe: all three are. In the background the terminal is another program's.
 void StopKey::restore(void* self) noexcept {

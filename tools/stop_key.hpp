@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include <termios.h>
 
 #include <calligraphy/devices/emergency_stop.hpp>
+#include <calligraphy/judge/language.hpp>
 
 namespace calligraphy::tools {
 
@@ -36,6 +38,6 @@ class StopKey {
 };
 
 /// What a person presses to stop: "space, Esc or Ctrl-C", or "Ctrl-C" where no keys are read.
-const char* stop_keys(const StopKey& key) noexcept;
+std::string stop_keys(const StopKey& key, const Language& language = {});
 
 }  // namespace calligraphy::tools

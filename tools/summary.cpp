@@ -13,8 +13,8 @@
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/practice/mean_interval.hpp>
 
-#include "counted.hpp"
 #include "score_json.hpp"
+#include "table_head.hpp"
 
 namespace calligraphy::tools {
 namespace {
@@ -67,7 +67,12 @@ std::vector<Pair> pairs(const std::vector<Result>& results) {
   return both;
 }
 
-std::string reduction(const char* what, const char* unit, const std::vector<Pair>& both, const Quantity& quantity) {
+std::string name_of(FeedbackMode mode, const Language& language) {
+  return language.text(std::string("mode.") + to_string(mode));
+}
+
+std::string reduction(const std::string& what, const char* unit, const std::vector<Pair>& both,
+                      const Quantity& quantity, const Language& language) {
   double vision = 0.0;
   std::vector<DrawnValue> reduced;
   for (const Pair& pair : both) {
@@ -76,8 +81,12 @@ std::string reduction(const char* what, const char* unit, const std::vector<Pair
   }
   const MeanInterval interval = mean_interval(reduced);
   const std::string relative = vision > 0.0 ? fmt::format(" ({:.1f} %)", 100.0 * interval.mean / vision) : "";
-  return fmt::format("{:<10} {:.3f} {}{} less with force, 95 % interval {:.3f} to {:.3f} {}\n", what, interval.mean,
-                     unit, relative, interval.mean - interval.half_width, interval.mean + interval.half_width, unit);
+  return fmt::format("{:<10} {}\n", what,
+                     language.text("write.reduced", {{"value", fixed(interval.mean, 3)},
+                                                     {"unit", unit},
+                                                     {"relative", relative},
+                                                     {"low", fixed(interval.mean - interval.half_width, 3)},
+                                                     {"high", fixed(interval.mean + interval.half_width, 3)}}));
 }
 
 /// The results from `begin` on that differ only in their repetition end here.
@@ -89,30 +98,33 @@ std::size_t end_of_repetitions(const std::vector<Result>& results, std::size_t b
 }
 
 /// "interrupted: means over 3 to 100 of 100 repetitions"; empty where there is nothing to average.
-std::string repetitions(const Summary& summary) {
+std::string repetitions(const Summary& summary, const Language& language) {
   if (summary.repetitions == 1) return "";
-  if (!summary.interrupted) return fmt::format("means over {} repetitions\n", summary.repetitions);
+  const std::string asked = std::to_string(summary.repetitions);
+  if (!summary.interrupted) return language.text("write.repetitions", {{"repetitions", asked}}) + "\n";
   std::size_t least = summary.results.size(), most = 0;
   for (std::size_t begin = 0, end = 0; begin < summary.results.size(); begin = end) {
     end = end_of_repetitions(summary.results, begin);
     least = std::min(least, end - begin);
     most = std::max(most, end - begin);
   }
-  const std::string range = least < most ? fmt::format("{} to {}", least, most) : fmt::format("{}", most);
-  return fmt::format("interrupted: means over {} of {} repetitions\n", range, summary.repetitions);
+  const std::string last = std::to_string(most);
+  const std::string done =
+      least < most ? language.text("write.range", {{"first", std::to_string(least)}, {"last", last}}) : last;
+  return language.text("write.interrupted", {{"done", done}, {"repetitions", asked}}) + "\n";
 }
 
 constexpr const char* writing_columns = "{:<10}{:<8}{:>8}{:>9}{:>9}{:>9}{:>9}{:>9}{:>8}{:>7}{:>7}{:>7}{:>9}\n";
 
-std::string writing_head() {
-  const auto line = fmt::runtime(writing_columns);
-  return fmt::format(line, "", "", "time", "RMS err", "max err", "overall", "written", "written", "order", "back-",
-                     "extra", "miss-", "comple-") +
-         fmt::format(line, "character", "mode", "[s]", "[mm]", "[mm]", "[mm]", "[%]", "strokes", "", "wards", "", "ing",
-                     "ted");
+std::string writing_head(const Language& language) {
+  return table_head(writing_columns, language,
+                    {"column.character", "column.mode", "column.time", "column.rms_error", "column.max_error",
+                     "column.overall_error", "column.coverage", "column.strokes", "column.order_mistakes",
+                     "column.backwards", "column.extra", "column.missing", "column.completed"});
 }
 
-std::string writing_line(const std::vector<Result>& results, std::size_t begin, std::size_t end) {
+std::string writing_line(const std::vector<Result>& results, std::size_t begin, std::size_t end,
+                         const Language& language) {
   const int decimals = end - begin > 1 ? 2 : 0;
   const auto error = [&](double CharacterScore::*which) {
     return fixed(mean(results, begin, end, [which](const Result& r) { return r.score.*which * millimetres; }), 3);
@@ -127,7 +139,8 @@ std::string writing_line(const std::vector<Result>& results, std::size_t begin, 
     return fixed(mean(results, begin, end, quantity), places);
   };
   const CharacterScore& first = results[begin].score;
-  return fmt::format(fmt::runtime(writing_columns), encode_utf8(first.character), to_string(results[begin].mode),
+  return fmt::format(fmt::runtime(writing_columns), encode_utf8(first.character),
+                     name_of(results[begin].mode, language),
                      of([](const Result& r) { return r.score.time; }, 2), error(&CharacterScore::rms_error),
                      error(&CharacterScore::max_error), error(&CharacterScore::overall_error),
                      of([](const Result& r) { return 100.0 * r.score.coverage; }, 0),
@@ -140,15 +153,16 @@ std::string writing_line(const std::vector<Result>& results, std::size_t begin, 
 constexpr const char* motion_columns =
     "{:<10}{:<8}{:>8}{:>8}{:>6}{:>8}{:>8}{:>8}{:>7}{:>8}{:>7}{:>9}{:>8}{:>10}{:>7}{:>7}\n";
 
-std::string motion_head() {
-  const auto line = fmt::runtime(motion_columns);
-  return fmt::format(line, "", "", "paper", "air", "pen-", "path", "mean v", "peak v", "peaks", "smooth", "DTW",
-                     "pressure", "peak F", "max step", "p50", "p99.9") +
-         fmt::format(line, "character", "mode", "[s]", "[s]", "ups", "[mm]", "[mm/s]", "[mm/s]", "of v", "SPARC",
-                     "[mm]", "[N]", "[N]", "[N/tick]", "[ns]", "[ns]");
+std::string motion_head(const Language& language) {
+  return table_head(motion_columns, language,
+                    {"column.character", "column.mode", "column.paper", "column.air", "column.pen_ups.narrow",
+                     "column.path", "column.mean_speed", "column.peak_speed", "column.peaks", "column.smoothness",
+                     "column.dtw", "column.pressure", "column.peak_force", "column.max_step", "column.p50",
+                     "column.p99_9"});
 }
 
-std::string motion_line(const std::vector<Result>& results, std::size_t begin, std::size_t end) {
+std::string motion_line(const std::vector<Result>& results, std::size_t begin, std::size_t end,
+                        const Language& language) {
   const auto of = [&](const Quantity& quantity, int decimals) {
     return fixed(mean(results, begin, end, quantity), decimals);
   };
@@ -160,7 +174,7 @@ std::string motion_line(const std::vector<Result>& results, std::size_t begin, s
   };
   const int decimals = end - begin > 1 ? 1 : 0;
   return fmt::format(
-      fmt::runtime(motion_columns), encode_utf8(results[begin].score.character), to_string(results[begin].mode),
+      fmt::runtime(motion_columns), encode_utf8(results[begin].score.character), name_of(results[begin].mode, language),
       motion(&WritingMotion::time_on_paper, 1.0, 2), motion(&WritingMotion::time_in_air, 1.0, 2),
       motion(&WritingMotion::pen_ups, 1.0, decimals), motion(&WritingMotion::path_length, millimetres, 1),
       motion(&WritingMotion::mean_speed, millimetres, 1), motion(&WritingMotion::peak_speed, millimetres, 1),
@@ -171,7 +185,7 @@ std::string motion_line(const std::vector<Result>& results, std::size_t begin, s
 }
 
 /// A line for each mode: over how many of how many strokes its errors are.
-std::string means(const std::vector<Result>& results) {
+std::string means(const std::vector<Result>& results, const Language& language) {
   std::string text;
   for (const FeedbackMode mode : {FeedbackMode::vision, FeedbackMode::force}) {
     std::vector<CharacterScore> scores;
@@ -180,9 +194,11 @@ std::string means(const std::vector<Result>& results) {
     }
     if (scores.empty()) continue;
     const MeanScore all = mean_score(scores);
-    text += fmt::format("{:<7} RMS error {} mm over {} of {} strokes; {} mm with what was left out\n", to_string(mode),
-                        fixed(all.rms_error * millimetres, 3), all.strokes_written, all.stroke_count,
-                        fixed(all.overall_error * millimetres, 3));
+    text += fmt::format("{:<7} {}\n", name_of(mode, language),
+                        language.text("write.means", {{"error", fixed(all.rms_error * millimetres, 3)},
+                                                      {"written", std::to_string(all.strokes_written)},
+                                                      {"strokes", std::to_string(all.stroke_count)},
+                                                      {"overall", fixed(all.overall_error * millimetres, 3)}}));
   }
   return text;
 }
@@ -197,18 +213,18 @@ double percentile(std::vector<float>& values, double share) {
   return *at;
 }
 
-std::string table(const Summary& summary) {
+std::string table(const Summary& summary, const Language& language) {
   const std::vector<Result>& results = summary.results;
-  std::string text = repetitions(summary);
+  std::string text = repetitions(summary, language);
   for (const bool second : {false, true}) {
     if (second) text += "\n";
-    text += second ? motion_head() : writing_head();
+    text += second ? motion_head(language) : writing_head(language);
     for (std::size_t begin = 0, end = 0; begin < results.size(); begin = end) {
       end = end_of_repetitions(results, begin);
-      text += second ? motion_line(results, begin, end) : writing_line(results, begin, end);
+      text += second ? motion_line(results, begin, end, language) : writing_line(results, begin, end, language);
     }
   }
-  return text + "\n" + means(results);
+  return text + "\n" + means(results, language);
 }
 
 std::string json(const Summary& summary) {
@@ -260,7 +276,7 @@ std::string json(const Summary& summary) {
   return all.dump(2) + "\n";
 }
 
-std::string reductions(const std::vector<Result>& results) {
+std::string reductions(const std::vector<Result>& results, const Language& language) {
   std::vector<Pair> both = pairs(results);
   if (both.empty()) return "";
   const std::size_t all = both.size();
@@ -268,23 +284,24 @@ std::string reductions(const std::vector<Result>& results) {
   std::erase_if(both, [](const Pair& pair) { return !is_complete(*pair.vision) || !is_complete(*pair.force); });
   std::set<std::uint64_t> runs;
   for (const Pair& pair : both) runs.insert(pair.vision->seed);
+  const auto of_pairs = [&language](std::size_t count, std::string_view key) {
+    return language.text_for(static_cast<long long>(count), key, {{"pairs", std::to_string(count)}}) + "\n";
+  };
   std::string text;
   if (both.empty()) {
-    text = "no character was completed in both modes: no effect of force to show\n";
+    text = language.text("write.no_pair") + "\n";
   } else if (runs.size() < least_runs) {
-    text = fmt::format("n = {} of runs: too few to show an effect of force; try --repeat 20\n",
-                       counted(runs.size(), "pair"));
+    text = of_pairs(runs.size(), "write.few_pairs");
   } else {
-    text = reduction("RMS error", "mm", both, [](const Result& r) { return r.score.rms_error * millimetres; }) +
-           reduction("time", "s", both, [](const Result& r) { return r.score.time; }) +
-           fmt::format(
-               "{} in n = {} pairs of runs, by which they are clustered; mean +/- t(0.975, n - 1) "
-               "standard errors\n",
-               counted(both.size(), "character"), runs.size());
+    const auto rms_error = [](const Result& r) { return r.score.rms_error * millimetres; };
+    const auto time = [](const Result& r) { return r.score.time; };
+    text = reduction(language.text("write.rms_error"), "mm", both, rms_error, language) +
+           reduction(language.text("write.time"), "s", both, time, language) +
+           language.text("write.paired", {{"characters", std::to_string(both.size())},
+                                          {"pairs", std::to_string(runs.size())}}) +
+           "\n";
   }
-  if (const std::size_t omitted = all - both.size(); omitted > 0) {
-    text += counted(omitted, "pair") + " omitted: not every stroke was completed\n";
-  }
+  if (const std::size_t omitted = all - both.size(); omitted > 0) text += of_pairs(omitted, "write.omitted");
   return text;
 }
 
@@ -296,11 +313,13 @@ std::string remarks(const Summary& summary, const Language& language) {
     for (const StrokeRemark& remark : result.score.match.remarks) {
       ++count;
       text += fmt::format("{:>3} {}  {}{}  {}\n", result.position, encode_utf8(result.score.character),
-                          to_string(result.mode), of, remark_text(remark, result.score.match.character, language));
+                          name_of(result.mode, language), of,
+                          remark_text(remark, result.score.match.character, language));
     }
   }
   if (count == 0) return "";
-  return "\n" + (count <= most_remarks ? text : counted(count, "remark") + ": see summary.json\n");
+  if (count <= most_remarks) return "\n" + text;
+  return "\n" + language.text("write.many_remarks", {{"count", std::to_string(count)}}) + "\n";
 }
 
 }  // namespace calligraphy::tools

@@ -34,7 +34,7 @@ struct Summary {
 double percentile(std::vector<float>& values, double share);
 
 /// One line per character and mode, with means over as many repetitions as there are, which the first line says.
-std::string table(const Summary& summary);
+std::string table(const Summary& summary, const Language& language);
 
 /// An object: how many repetitions were asked for, whether the run was interrupted, the warnings, and a list with one
 /// object per result.
@@ -45,9 +45,9 @@ std::string json(const Summary& summary);
 ///
 /// Clustered by run, that is by page and seed: its characters draw their own beliefs, but one renderer renders them,
 /// whose assistance and thermal budget carry over, and a run that stops early loses all that follow.
-std::string reductions(const std::vector<Result>& results);
+std::string reductions(const std::vector<Result>& results, const Language& language);
 
-/// All remarks in a language, a line each; of more than 20, how many there are. Empty without any.
+/// All remarks, a line each; of more than 20, how many there are. Empty without any.
 std::string remarks(const Summary& summary, const Language& language);
 
 }  // namespace calligraphy::tools

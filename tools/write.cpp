@@ -113,6 +113,7 @@ PenOptions chosen_pen(const WriteArguments& options) {
   pen.like = options.like.value_or(pen.like);
   pen.peak_force = options.peak_force.value_or(pen.peak_force);
   pen.timeout = options.timeout.value_or(pen.timeout);
+  pen.language = options.language;
   return pen;
 }
 
@@ -250,9 +251,12 @@ class WriteRun {
   void write_sheet(std::size_t number, int repetition, const OutputDirectory& out) {
     const Sheet& sheet = sheets_[number];
     if (pen_.is_person()) {
-      spdlog::info("page {} of {}, {}: hold the pen above the paper and write; {} takes the force away and stops",
-                   number + 1, sheets_.size(), session_.mode == FeedbackMode::vision ? "vision only" : "with force",
-                   pen_.stop_keys());
+      const Language& language = options_.language;
+      const char* const mode = session_.mode == FeedbackMode::vision ? "mode.vision_only" : "mode.with_force";
+      spdlog::info("{}", language.text("write.hold_pen", {{"page", std::to_string(number + 1)},
+                                                          {"pages", std::to_string(sheets_.size())},
+                                                          {"mode", language.text(mode)},
+                                                          {"keys", pen_.stop_keys()}}));
     }
     const Recording recording = pen_.write(sheet.page, session_);
     // For replay:FILE, which cannot begin in the middle of a page. A single character's trace is the page's.
@@ -283,9 +287,9 @@ class WriteRun {
             const OutputDirectory& out) const {
     const char32_t code = result.score.character;
     const std::string stem = file_stem(result.position, code, result.mode);
+    const char* const mode = result.mode == FeedbackMode::vision ? "mode.vision_only" : "mode.vision_and_force";
     const std::string title =
-        fmt::format("{}, {}, {}", encode_utf8(code),
-                    result.mode == FeedbackMode::vision ? "vision only" : "vision and force", session_.device.model);
+        fmt::format("{}, {}, {}", encode_utf8(code), options_.language.text(mode), session_.device.model);
     out.write(stem + ".svg", page_picture(page, recording, index, title, options_.style));
     const bool reached = !own.samples.empty();  // the page may have been aborted before
     if (plots_ && reached) out.write(stem + "-force.svg", force_plot(recording, index, title));
@@ -298,8 +302,9 @@ class WriteRun {
     if (options_.json) {
       fmt::print(output(), "{}", json(summary_));
     } else {
-      fmt::print(output(), "{}{}{}", table(summary_), reductions(summary_.results),
-                 remarks(summary_, options_.language));
+      const Language& language = options_.language;
+      fmt::print(output(), "{}{}{}", table(summary_, language), reductions(summary_.results, language),
+                 remarks(summary_, language));
       for (const ServoStatistics& statistics : pen_.statistics()) fmt::print(output(), "{}", lines(statistics));
     }
     const auto given_up = [](const Result& r) { return r.score.strokes_completed < r.score.stroke_count; };

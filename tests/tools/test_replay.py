@@ -1,5 +1,6 @@
 import json
 import math
+import unicodedata
 import xml.etree.ElementTree as xml
 
 from program import ProgramTest
@@ -17,6 +18,11 @@ def stroke(begin, end, time):
         x, y = (a + (b - a) * i / steps for a, b in zip(begin, end))
         words.append(f"{x:.1f} {y:.1f} {time + 10 * i}")
     return " ".join(words)
+
+
+def columns(line):
+    """How many columns of a terminal a line takes."""
+    return sum(2 if unicodedata.east_asian_width(letter) in "WF" else 1 for letter in line)
 
 
 def character(code, lines, name="made-up"):
@@ -84,8 +90,11 @@ class Replay(ReplayTest):
         text = self.run_program("replay", self.traces(character("三", [one, three, two]))).stdout
         self.assertIn("  1 三  Stroke 3 (héng) came too early: write stroke 2 (héng) first.\n", text)
         chinese = self.run_program("replay", "pens.txt", "--language", "zh").stdout
-        self.assertEqual(chinese, text.replace("Stroke 3 (héng) came too early: write stroke 2 (héng) first.",
-                                               "第3笔（横）写早了，先写第2笔（横）。"))
+        self.assertIn("  1 三  第3笔（横）写早了，先写第2笔（横）。\n", chinese)
+        self.assertIn("1 个字中，0 个没有意见，0 个笔顺正确，1 个方向正确\n", chinese)
+        words, said = text.splitlines(), chinese.splitlines()
+        self.assertEqual((words[2].split()[3:6], said[2].split()[3:5]), (["1", "out", "of"], ["1", "处有误"]))
+        self.assertEqual([columns(line) for line in said[:3]], [columns(line) for line in words[:3]])
         self.assertIn("0 of 1 without a remark, 0 in the correct order, 1 in the correct direction", text)
 
     def test_a_stroke_written_from_its_end_is_a_direction_mistake(self):

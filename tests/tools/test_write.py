@@ -44,18 +44,22 @@ class Write(ProgramTest):
         self.assertEqual(self.files(), [])
 
     def test_remarks_are_printed_in_either_language_unless_there_are_many(self):
-        def said(printed, language):
+        def said(printed, language, modes):
             remarks = [(row, remark[language]) for row in self.summary() for remark in row["remarks"]]
             self.assertGreater(len(remarks), 1)
-            lines = [f"  1 永  {row['mode']}  {text}" for row, text in remarks]
+            lines = [f"  1 永  {modes[row['mode']]}  {text}" for row, text in remarks]
             self.assertEqual(printed.splitlines()[-len(lines) - 1:], ["", *lines])
             return [text for _, text in remarks]
 
         arguments = ["write", "永", "--seed", "2", "--out", "out"]
-        english = said(self.run_program(*arguments).stdout, "reason")
+        english = said(self.run_program(*arguments).stdout, "reason", {"vision": "vision", "force": "force"})
         self.assertIn("Your 1st line is stroke 1 (diǎn) backwards: start at the top left.", english)
-        chinese = said(self.run_program(*arguments, "--language", "zh").stdout, "reason_zh")
+        printed = self.run_program(*arguments, "--language", "zh").stdout
+        chinese = said(printed, "reason_zh", {"vision": "视觉", "force": "力觉"})
         self.assertIn("你写的第1笔是第1笔（点），但方向反了，从左上方起笔。", chinese)
+        self.assertEqual(printed.splitlines()[1].split()[:3], ["汉字", "方式", "[s]"])
+        self.assertIn("n = 1 对书写：太少", printed)
+        self.assertIn(">永, 仅视觉, Phantom Desktop<", (self.directory / "out/01-永-vision.svg").read_text())
         self.assert_refused(2, [*arguments, "--language", "fr"], "--language", "fr")
 
         printed = self.run_program("write", "永", "--mode", "vision", "--repeat", "100", "--out", "many").stdout
