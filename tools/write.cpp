@@ -290,9 +290,11 @@ class WriteRun {
     const char* const mode = result.mode == FeedbackMode::vision ? "mode.vision_only" : "mode.vision_and_force";
     const std::string title =
         fmt::format("{}, {}, {}", encode_utf8(code), options_.language.text(mode), session_.device.model);
-    out.write(stem + ".svg", page_picture(page, recording, index, title, options_.style));
+    out.write(stem + ".svg", page_picture(page, recording, index, title, options_.style, options_.language));
     const bool reached = !own.samples.empty();  // the page may have been aborted before
-    if (plots_ && reached) out.write(stem + "-force.svg", force_plot(recording, index, title));
+    if (plots_ && reached) {
+      out.write(stem + "-force.svg", force_plot(recording, index, title, options_.language));
+    }
     std::ostringstream trace;
     write_recording(trace, own);
     out.write(stem + ".csv", trace.str());

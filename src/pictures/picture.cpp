@@ -215,16 +215,18 @@ void draw_square(pugi::xml_node parent, const svg::View& em) {
 }
 
 /// What each colour means, in one line below the page.
-void draw_legend(pugi::xml_node root, StrokeStyle style, double middle, double y, double unit) {
+void draw_legend(pugi::xml_node root, StrokeStyle style, double middle, double y, double unit,
+                 const Language& language) {
   struct Entry {
     const char* colour;
-    const char* text;
+    std::string text;
     double width;
   };
-  const std::array<Entry, 3> lines = {{{template_blue, "template", 2.6},
-                                       {active_yellow, "active character", 2.6},
-                                       {trace_green, "trace", style == StrokeStyle::ink ? 2.6 * trace_share : 0.9}}};
-  const std::string start = "start of the active stroke";
+  const double trace = style == StrokeStyle::ink ? 2.6 * trace_share : 0.9;
+  const std::array<Entry, 3> lines = {{{template_blue, language.text("picture.template"), 2.6},
+                                       {active_yellow, language.text("picture.active"), 2.6},
+                                       {trace_green, language.text("picture.trace"), trace}}};
+  const std::string start = language.text("picture.start");
   const double size = 3.3 * unit, sample = 7.0 * unit, space = 1.5 * unit, gap = 6.0 * unit;
 
   double total = svg::text_width(start, size) + sample + space;
@@ -271,7 +273,7 @@ void require_valid(const PracticePage& page, int active) {
 }  // namespace
 
 std::string page_picture(const PracticePage& page, const Recording& recording, int active, const std::string& title,
-                         StrokeStyle style) {
+                         StrokeStyle style, const Language& language) {
   require_valid(page, active);
   const int count = static_cast<int>(page.characters.size());
   const std::string heading = svg::clean(title);
@@ -331,7 +333,7 @@ std::string page_picture(const PracticePage& page, const Recording& recording, i
        {"stroke", start_red},
        {"stroke-width", number(0.018 * em.scale)}});
 
-  draw_legend(root, style, middle, top + height + 6.2 * unit, unit);
+  draw_legend(root, style, middle, top + height + 6.2 * unit, unit, language);
   return svg::to_string(document);
 }
 

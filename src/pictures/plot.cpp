@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
@@ -126,8 +127,15 @@ std::string y_range(std::span<const Signal> curves) {
          gnuplot::numeral(high > 0.0 ? high + margin : 0.0) + "]\n";
 }
 
-/// Only numbers vary: no text from the caller reaches gnuplot.
-std::string script(const Signals& signals) {
+/// The text of a key as gnuplot takes it.
+std::string quoted(std::string_view key, const Language& language) {
+  std::string quoted = "'";
+  for (const char each : language.text(key)) quoted += each == '\'' ? std::string("''") : std::string(1, each);
+  return quoted + "'";
+}
+
+/// Only numbers and the words of the language vary: no text from the caller reaches gnuplot.
+std::string script(const Signals& signals, const Language& language) {
   const double begin = signals.time.front();
   const double end = std::max(signals.time.back(), begin + 1e-3);
   std::string text = gnuplot::svg_terminal(plot_width, plot_height);
@@ -141,25 +149,28 @@ std::string script(const Signals& signals) {
   text +=
       "set multiplot\n"
       "set tmargin at screen 0.865\nset bmargin at screen 0.515\n"
-      "set format x ''\nset label 'in-plane force [N]' at screen 0.022, graph 0.5 center rotate\n"
+      "set format x ''\nset label " +
+      quoted("plot.in_plane_force", language) +
+      " at screen 0.022, graph 0.5 center rotate\n"
       "set key horizontal at screen 0.975, 0.942 right top samplen 2\n" +
       band_labels(signals.bands, begin, end) + y_range(std::span(signals.curves).first(3)) +
       "plot $size with lines linewidth 1.6 linecolor rgb '#555555' title '|F|', "
       "$fx with lines linewidth 1.3 linecolor rgb '#0072b2' title 'Fx', "
       "$fy with lines linewidth 1.3 linecolor rgb '#d55e00' title 'Fy'\n"
       "unset label\nset tmargin at screen 0.47\nset bmargin at screen 0.12\n"
-      "set format x '%g'\nset xlabel 'time [s]'\nunset key\n"
-      "set label 'normal force [N]' at screen 0.022, graph 0.5 center rotate\n" +
+      "set format x '%g'\nset xlabel " +
+      quoted("plot.time", language) + "\nunset key\nset label " + quoted("plot.normal_force", language) +
+      " at screen 0.022, graph 0.5 center rotate\n" +
       y_range(std::span(signals.curves).last(1)) +
       "plot $normal with lines linewidth 1.3 linecolor rgb '#222222' notitle\n"
       "unset multiplot\n";
   return text;
 }
 
-std::string band_caption(const std::vector<Band>& bands) {
+std::string band_caption(const std::vector<Band>& bands, const Language& language) {
   if (bands.empty()) return "";
   const bool any = std::any_of(bands.begin(), bands.end(), [](const Band& band) { return band.abandoned; });
-  return std::string("shaded: writing state, with the stroke number") + (any ? "; grey: abandoned" : "");
+  return language.text(any ? "plot.shaded.abandoned" : "plot.shaded");
 }
 
 }  // namespace
@@ -172,20 +183,20 @@ bool gnuplot_available() {
   }
 }
 
-std::string force_plot(const Recording& recording, int character, const std::string& title) {
+std::string force_plot(const Recording& recording, int character, const std::string& title, const Language& language) {
   const std::string heading = svg::clean(title);
   const Signals signals = signals_of(recording, character);
   if (signals.time.empty()) {
     throw ValueError("character " + std::to_string(character) + " is not active in any sample of the recording");
   }
   pugi::xml_document document;
-  gnuplot::draw(script(signals), document);
+  gnuplot::draw(script(signals, language), document);
   pugi::xml_node root = document.child("svg");
   root.child("title").text() = heading.c_str();
   const double size = std::min(17.0, 0.9 * plot_width / svg::text_width(heading + ".", 1.0));
   svg::add_text(root, panel_left * plot_width, 26.0, size, heading,
                 {{"font-family", "sans-serif"}, {"fill", "#222222"}});
-  svg::add_text(root, panel_left * plot_width, 46.0, 12.0, band_caption(signals.bands),
+  svg::add_text(root, panel_left * plot_width, 46.0, 12.0, band_caption(signals.bands, language),
                 {{"font-family", "sans-serif"}, {"fill", "#666666"}});
   return svg::to_string(document);
 }

@@ -180,8 +180,8 @@ svg::View view_of(const Eigen::AlignedBox2d& box, double x) {
 }
 
 /// The square at `x`, its heading and the template.
-void draw_square(pugi::xml_node root, const Character& character, StrokeStyle style, double x, const char* heading,
-                 const svg::View& view) {
+void draw_square(pugi::xml_node root, const Character& character, StrokeStyle style, double x,
+                 const std::string& heading, const svg::View& view) {
   add_text(root, x + 0.5 * square_side, sheet_top - 2.5, text_size, heading,
            {{"text-anchor", "middle"}, {"fill", ink}});
   add(root, "rect",
@@ -247,11 +247,11 @@ void draw_guided(pugi::xml_node root, std::span<const PenPath> guided, const svg
 std::vector<std::string> lines_of(const MatchResult& match, const Character& character, const Language& language) {
   std::vector<std::string> lines;
   for (const StrokeRemark& remark : match.remarks) lines.push_back(remark_text(remark, character, language));
-  if (lines.empty()) lines.emplace_back("all strokes in the correct order and direction");
+  if (lines.empty()) lines.push_back(language.text("picture.no_remark"));
   if (lines.size() > max_lines) {
     const std::size_t more = lines.size() - max_lines + 1;
     lines.resize(max_lines - 1);
-    lines.push_back("and " + std::to_string(more) + " more remarks");
+    lines.push_back(language.text("picture.more_remarks", {{"count", std::to_string(more)}}));
   }
   return lines;
 }
@@ -280,16 +280,13 @@ std::string replay_picture(const Character& character, std::span<const PenPath> 
   const Eigen::AlignedBox2d box = box_of(character, laid, match, guided);
   const svg::View left = view_of(box, sheet_margin), right = view_of(box, 2.0 * sheet_margin + square_side);
   const Character inked = with_typical_ink(character);
-  draw_square(root, inked, style, sheet_margin, "as written, laid on the character", left);
+  draw_square(root, inked, style, sheet_margin, language.text("picture.as_written"), left);
   draw_written(root, character, laid, match, left);
-  draw_square(root, inked, style, 2.0 * sheet_margin + square_side, "device, under guidance", right);
+  draw_square(root, inked, style, 2.0 * sheet_margin + square_side, language.text("picture.guided"), right);
   draw_guided(root, guided, right);
 
   double y = sheet_top + square_side + 5.5;
-  add_text(root, sheet_margin, y, 0.9 * text_size,
-           "black: the order written (red: wrong, orange: joined or of another shape); blue: the correct order (red: "
-           "missing)",
-           {{"fill", "#777777"}});
+  add_text(root, sheet_margin, y, 0.9 * text_size, language.text("picture.colours"), {{"fill", "#777777"}});
   for (const std::string& line : lines) {
     y += line_height;
     const double size = text_size * std::min(1.0, 2.0 * square_side / svg::text_width(line, text_size));

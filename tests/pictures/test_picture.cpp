@@ -466,6 +466,17 @@ TEST_CASE("the picture of a real session shows one trace per finished stroke", "
   CHECK(page_picture(page, recording, 1, "title") == svg);
 }
 
+TEST_CASE("the legend of a page is in the language asked for", "[practice]") {
+  const auto legend = [](const Language& language) {
+    const auto document = xml(page_picture(page_of("永"), {}, 0, "永", StrokeStyle::ink, language));
+    std::string words;
+    for (const auto& node : all(document, "//g[@class='legend']/text")) words += std::string(node.text().get()) + "|";
+    return words;
+  };
+  CHECK(legend(Language("en")) == "template|active character|trace|start of the active stroke|");
+  CHECK(legend(Language("zh")) == "范字|正在写的字|笔迹|当前笔画的起点|");
+}
+
 TEST_CASE("a title may contain anything but invalid UTF-8", "[practice]") {
   const PracticePage page = page_of("永");
   for (const std::string title : {"<&>\"'", "北京 ]]> <!--", "bell \x07 and tab\t", "",

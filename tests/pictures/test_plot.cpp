@@ -131,6 +131,16 @@ TEST_CASE("a force plot is valid SVG with axes, units, stroke numbers and title"
   }
 }
 
+TEST_CASE("a force plot has its words in the language asked for", "[practice]") {
+  if (!gnuplot_is_there()) return;
+  const std::string svg = force_plot(recording(), 0, "title", Language("zh"));
+  for (const char* expected : {"纸面内的力 [N]", "垂直纸面的力 [N]", "时间 [s]", "灰：中途放弃"}) {
+    CAPTURE(expected);
+    CHECK(contains(svg, expected));
+  }
+  CHECK_FALSE(contains(svg, "force [N]"));
+}
+
 TEST_CASE("a hostile title is drawn, not run", "[practice]") {
   if (!gnuplot_is_there()) return;
   const ShimDirectory directory;

@@ -48,10 +48,14 @@ TEST_CASE("a replay picture shows mistakes in red, lists them, and omits bounces
   const auto document = replay_xml(text);
   CHECK(count(document, "//g[@class='drawn-number']/text") == 2);
   CHECK(count(document, "//g[@class='written']/path[@stroke='#e02020']") == 1);
-  CHECK(text.find(remark_text(match.remarks.at(0), match.character)) != std::string::npos);
-  const std::string chinese = replay_picture(ten, paths, match, {}, "<十>", StrokeStyle::ink, Language("zh"));
-  CHECK(chinese.find(remark_text(match.remarks.at(0), match.character, Language("zh"))) != std::string::npos);
-  CHECK(chinese.find(remark_text(match.remarks.at(0), match.character)) == std::string::npos);
+  const StrokeRemark& remark = match.remarks.at(0);
+  CHECK(text.find(remark_text(remark, ten)) != std::string::npos);
+  CHECK(text.find(">as written, laid on the character<") != std::string::npos);
+  const Language language("zh");
+  const std::string chinese = replay_picture(ten, paths, match, {}, "<十>", StrokeStyle::ink, language);
+  CHECK(chinese.find(remark_text(remark, ten, language)) != std::string::npos);
+  CHECK(chinese.find(">所写的字，叠在范字上<") != std::string::npos);
+  CHECK(chinese.find(remark_text(remark, ten)) == std::string::npos);
 }
 
 TEST_CASE("a replay picture shows the template as ink, or as lines, and pen paths as lines", "[practice]") {

@@ -113,8 +113,13 @@ void add_practice(py::module_& module) {
   module.def("score_page", released(&score_page), "page"_a, "recording"_a, "tolerances"_a = JudgeTolerances());
   module.def(
       "mean_score", [](const std::vector<CharacterScore>& scores) { return mean_score(scores); }, "scores"_a);
-  module.def("page_picture", released(&page_picture), "page"_a, "recording"_a, "active"_a = 0, "title"_a = "",
-             "style"_a = StrokeStyle::ink);
+  module.def(
+      "page_picture",
+      [](const PracticePage& page, const Recording& recording, int active, const std::string& title, StrokeStyle style,
+         const std::string& language) {
+        return released(&page_picture)(page, recording, active, title, style, Language(language));
+      },
+      "page"_a, "recording"_a, "active"_a = 0, "title"_a = "", "style"_a = StrokeStyle::ink, "language"_a = "en");
 
   module.def(
       "mean_interval",

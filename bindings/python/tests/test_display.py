@@ -146,6 +146,10 @@ def test_a_page_with_what_was_written_on_it():
     picture = xml.fromstring(cal.page_picture(page, recording, 1, "<both>", "lines"))
     assert picture.find(SVG + "title").text == "<both>" and picture.get("width") == "172mm"
     assert len(picture.findall(f".//{SVG}g[@class='trace']/{SVG}path")) == 7
+    assert [text.text for text in picture.iter(SVG + "text")][1:2] == ["template"]
+    assert ">范字<" in cal.page_picture(page, recording, 1, language="zh")
+    with pytest.raises(cal.InvalidValue, match='language "xx"'):
+        cal.page_picture(page, recording, 1, language="xx")
     with pytest.raises(cal.InvalidValue, match="active character 2: the page has 2"):
         cal.page_picture(page, recording, 2)
 
