@@ -9,6 +9,7 @@
 #include <calligraphy/judge/dtw_distance.hpp>
 #include <calligraphy/judge/pen_path.hpp>
 
+#include "judge/judge_constants.hpp"
 #include "judge/pens/resemblance.hpp"
 #include "judge/pens/stroke_alignment.hpp"
 #include "judge/reading/unfinished_character.hpp"
@@ -136,8 +137,8 @@ class CharacterScorer {
     result_.stroke_count = placed.character.stroke_count();
     result_.strokes.resize(templates_.size());
     std::vector<PenPath> paths;
-    const double spacing =
-        std::max(pen_spacing, std::min(sensor_noise / placement_.em, 4.0 * pen_spacing)) * placement_.em;
+    const double least = detail::judge_constants.pen_spacing;
+    const double spacing = std::max(least, std::min(sensor_noise / placement_.em, 4.0 * least)) * placement_.em;
     for (const PenDown* down : downs_) {
       paths_.push_back(without_jitter(points_of(down->samples), spacing));
       PenPath& path = paths.emplace_back();

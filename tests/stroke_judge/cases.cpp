@@ -5,6 +5,7 @@
 #include <calligraphy/base/random.hpp>
 
 #include "base/parallel.hpp"
+#include "judge/judge_constants.hpp"
 #include "judge/pens/resemblance.hpp"
 #include "judge/reading/stroke_reading.hpp"
 
@@ -16,7 +17,9 @@ namespace {
 
 double comparisons(const Case& each) {
   std::vector<PenPath> paths;
-  for (const PenPath& path : each.corrupted.paths) paths.push_back(without_jitter(path, pen_spacing));
+  for (const PenPath& path : each.corrupted.paths) {
+    paths.push_back(without_jitter(path, detail::judge_constants.pen_spacing));
+  }
   const StrokeOutlines outlines(each.pen->character);
   const StrokeReading reading = read_strokes(each.pen->character, outlines, paths);
   return static_cast<double>(reading.comparisons) / static_cast<double>(paths.size() * outlines.count());

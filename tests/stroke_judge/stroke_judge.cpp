@@ -18,6 +18,7 @@
 #include "cases.hpp"
 #include "corruptions.hpp"
 #include "guidance/statistics.hpp"
+#include "named_constants.hpp"
 #include "other_characters.hpp"
 #include "stability/arguments.hpp"
 
@@ -30,7 +31,7 @@ constexpr const char* usage =
     "usage: stroke_judge [--traces DIR]... [--characters FILE.set]... [--written N] [--half choosing|printed|all]\n"
     "                    [--row NAME] [--class any|dots|hooks|parallel] [--cases N]\n"
     "                    [--tolerances lenient|normal|strict] [--others] [--seed S] [--threads T] [--list]\n"
-    "                    [--out FILE]\n"
+    "                    [--constant NAME=VALUE]... [--out FILE]\n"
     "    --traces, --characters: of people's pens and of what they wrote, several in turn; by default those that\n"
     "        CALLIGRAPHY_PEN_TRACES and CALLIGRAPHY_CHARACTER_FILE name, separated by ':', or else none and the\n"
     "        built-in characters\n"
@@ -42,14 +43,20 @@ constexpr const char* usage =
     "        does where that is wrong; then two rows where it is right: another, pens judged against a character\n"
     "        drawn at random, and twins, against one that differs by little (of both halves)\n"
     "    --list: each case that failed: pen-downs and remarks as they are, and as they are told\n"
+    "    --constant: judges with this value of a constant of src/judge/judge_constants.hpp, several in turn\n"
     "    --out: writes those cases as pen traces, for calligraphy replay\n"
     "    --threads: 0, one per core, by default\n";
 
 constexpr std::size_t written_twins = 10;  // pens of each form
 
-std::vector<std::string> all_of(Arguments& arguments, const std::string& name, const char* variable) {
+std::vector<std::string> all_of(Arguments& arguments, const std::string& name) {
   std::vector<std::string> all;
   for (std::string next = arguments.text(name); !next.empty(); next = arguments.text(name)) all.push_back(next);
+  return all;
+}
+
+std::vector<std::string> all_of(Arguments& arguments, const std::string& name, const char* variable) {
+  std::vector<std::string> all = all_of(arguments, name);
   const char* const otherwise = std::getenv(variable);
   if (!all.empty() || otherwise == nullptr) return all;
   std::istringstream names(otherwise);
@@ -253,6 +260,7 @@ int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // seconds pass between lines
   Arguments arguments(argc, argv);
   try {
+    for (const std::string& assignment : all_of(arguments, "--constant")) set_constant(assignment);
     Program program(arguments);
     if (!arguments.understood()) {
       std::fputs(usage, stderr);

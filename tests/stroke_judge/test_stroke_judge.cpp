@@ -6,13 +6,16 @@
 #include <set>
 #include <sstream>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/model/character_list.hpp>
 
 #include "cases.hpp"
 #include "catch.hpp"
 #include "guidance/statistics.hpp"
+#include "judge/judge_constants.hpp"
 #include "judge/pen_traces.hpp"
+#include "named_constants.hpp"
 #include "other_characters.hpp"
 #include "pens_of_tests.hpp"
 #include "polyline.hpp"
@@ -445,6 +448,17 @@ void check_marks(const std::vector<RightPen>& pens, const std::vector<Mark>& mar
 }
 
 }  // namespace
+
+TEST_CASE("a constant of the judge is set by its name, and by no other name or value", "[judge]") {
+  using detail::judge_constants;
+  set_constant("left_over_cost=0.25");
+  CHECK(judge_constants.left_over_cost == 0.25);
+  judge_constants = {};
+  for (const char* wrong : {"left_over=0.25", "left_over_cost", "left_over_cost=", "left_over_cost=0.25em", "=1"}) {
+    CHECK_THROWS_AS(set_constant(wrong), ValueError);
+  }
+  CHECK(judge_constants.left_over_cost == 0.2);
+}
 
 TEST_CASE("exact pens with faults and deviations are told exactly", "[judge]") {
   check_marks(copies(),

@@ -6,13 +6,13 @@
 
 #include <calligraphy/model/placed_character.hpp>
 
+#include "judge/judge_constants.hpp"
 #include "writing_box.hpp"
 
 namespace calligraphy {
 namespace {
 
-constexpr double flat = 0.15;        // a side of a box below this is flat [em], or relative to the other one
-constexpr double max_stretch = 1.5;  // of one axis against the other
+using detail::judge_constants;
 
 /// Without taps.
 Eigen::AlignedBox2d box_of(std::span<const PenPath> paths) {
@@ -25,7 +25,9 @@ Eigen::AlignedBox2d box_of(std::span<const PenPath> paths) {
   return written.isEmpty() ? box_of_all(paths) : written;
 }
 
-double flat_below(const Eigen::AlignedBox2d& box) { return flat * std::min(1.0, box.sizes().maxCoeff()); }
+double flat_below(const Eigen::AlignedBox2d& box) {
+  return judge_constants.box_flat_side * std::min(1.0, box.sizes().maxCoeff());
+}
 
 }  // namespace
 
@@ -59,7 +61,7 @@ BoxMap fit_box(std::span<const PenPath> paths, const Character& character) {
   if (flat_x) map.scale.x() = map.scale.y();
   if (flat_y) map.scale.y() = map.scale.x();
   const double mean = std::sqrt(map.scale.x() * map.scale.y());
-  const double limit = std::sqrt(max_stretch);
+  const double limit = std::sqrt(judge_constants.max_box_stretch);
   const double stretch = std::clamp(std::sqrt(map.scale.x() / map.scale.y()), 1.0 / limit, limit);
   map.scale = {mean * stretch, mean / stretch};
   map.offset = to.center() - map.scale.cwiseProduct(from.center());

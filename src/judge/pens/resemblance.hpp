@@ -21,9 +21,6 @@ std::vector<Point> points_along(std::span<const Point> path, double length, std:
 /// on, although its sensor never rests.
 std::vector<Point> without_jitter(std::span<const Point> path, double spacing);
 
-/// Spacing of the points of a pen-down from which it is read [em].
-inline constexpr double pen_spacing = 0.005;
-
 /// What a path looks like: a row for each piece of an equal share of its length, the mean of its points. A mean forgets
 /// the tremor of the hand, and what it takes from the ends of a path it takes from those of a stroke too.
 using Outline = Eigen::Matrix<double, 16, 2>;

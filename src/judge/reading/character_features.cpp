@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "judge/judge_constants.hpp"
+
 namespace calligraphy {
 namespace {
 
+using detail::judge_constants;
+
 constexpr Eigen::Index values_per_stroke = 2 * points_in_stroke;
 constexpr Eigen::Index pieces_per_point = Outline::RowsAtCompileTime / points_in_stroke;
-constexpr double spread = 0.25;     // standard deviation each way [em]
-constexpr double min_share = 0.25;  // of the larger standard deviation, that the smaller one is taken for at least
 
 /// Another code of a character, or a part of one: not what somebody writes.
 bool is_written(char32_t code) {
@@ -31,9 +33,10 @@ CharacterFeature character_feature(std::span<const Outline> strokes) {
   points.rowwise() -= points.colwise().mean().eval();
   const Point deviation = (points.colwise().squaredNorm() / static_cast<double>(row)).cwiseSqrt().transpose();
   // The slope of a lone line is all that there is to see.
-  const double share = strokes.size() == 1 ? 1.0 : min_share;
+  const double share = strokes.size() == 1 ? 1.0 : judge_constants.min_deviation_share;
   const double least = std::max(share * deviation.maxCoeff(), 1e-9);
-  for (const int axis : {0, 1}) points.col(axis) *= spread / std::max(deviation[axis], least);
+  const double wanted = judge_constants.feature_deviation;
+  for (const int axis : {0, 1}) points.col(axis) *= wanted / std::max(deviation[axis], least);
   return points.reshaped<Eigen::RowMajor>().cast<float>();
 }
 

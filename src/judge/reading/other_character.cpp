@@ -8,14 +8,12 @@
 
 #include <Eigen/Geometry>
 
+#include "judge/judge_constants.hpp"
+
 namespace calligraphy {
 namespace {
 
-// By how much the writing is nearer to the other character: of the way from the middle to it, and, since a careless
-// hand needs more evidence than a neat one, of its own distance from the other one, for a single stroke.
-constexpr double clear = 0.2, carelessness = 0.3;
-constexpr double lookalike_apart = 0.06;  // of two characters that hardly differ [em]
-constexpr double same_apart = 0.01;       // of two characters that are drawn alike [em]
+using detail::judge_constants;
 
 /// The points of a stroke.
 using StrokePoints = Eigen::Matrix<float, points_in_stroke, 2, Eigen::RowMajor>;
@@ -58,17 +56,18 @@ std::optional<OtherCharacter> other_character(const CharacterFeatures& character
     if (read.size() > 0) from_asked_as_read = std::min(from_asked_as_read, apart(read, asked));
   }
   if (nearest.code == 0) return std::nullopt;
-  const double doubt = carelessness * nearest.distance / std::sqrt(static_cast<double>(paths.size()));
+  // A careless hand needs more evidence than a neat one.
+  const double doubt = judge_constants.carelessness * nearest.distance / std::sqrt(static_cast<double>(paths.size()));
   // Along the line from one character to the other, which are so far apart.
   const auto is_clear = [&](double from_one, double between) {
-    const double beyond_middle = (from_one * from_one - nearest.distance * nearest.distance) / (2.0 * between);
-    return beyond_middle > clear * 0.5 * between + doubt;
+    const double past_middle = (from_one * from_one - nearest.distance * nearest.distance) / (2.0 * between);
+    return past_middle > judge_constants.beyond_middle * 0.5 * between + doubt;
   };
   const CharacterFeature other = characters.feature(nearest), other_as_read = as_read(other, reading);
   const double between = apart(asked, other);
-  if (between < same_apart || !is_clear(from_asked, between)) return std::nullopt;
+  if (between < judge_constants.drawn_alike_distance || !is_clear(from_asked, between)) return std::nullopt;
   if (other_as_read.size() > 0 && !is_clear(from_asked_as_read, apart(asked, other_as_read))) return std::nullopt;
-  return OtherCharacter{nearest.code, between < lookalike_apart};
+  return OtherCharacter{nearest.code, between < judge_constants.lookalike_distance};
 }
 
 }  // namespace calligraphy

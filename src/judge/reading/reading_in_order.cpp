@@ -5,14 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include "judge/judge_constants.hpp"
+
 namespace calligraphy {
-namespace {
 
-constexpr double joined_cost = 0.02;  // for each lift of the pen too few [em]
-constexpr double broken_cost = 0.03;  // for one too many [em]
-constexpr double unlikely = 0.1;      // besides, where the number of pen-downs speaks against it [em]
-
-}  // namespace
+using detail::judge_constants;
 
 StrokeReading read_in_this_order(std::shared_ptr<const StrokeCosts> costs, std::span<const std::size_t> order) {
   struct Best {
@@ -20,8 +17,9 @@ StrokeReading read_in_this_order(std::shared_ptr<const StrokeCosts> costs, std::
     ReadingStep step;
   };
   const std::size_t paths = order.size(), strokes = costs->strokes();
-  const double join_price = joined_cost + (paths >= strokes ? unlikely : 0.0);
-  const double break_price = broken_cost + (paths <= strokes ? unlikely : 0.0);
+  const double unlikely = judge_constants.unlikely_count_cost;
+  const double join_price = judge_constants.join_cost + (paths >= strokes ? unlikely : 0.0);
+  const double break_price = judge_constants.break_cost + (paths <= strokes ? unlikely : 0.0);
   std::vector<std::vector<Best>> best(paths + 1, std::vector<Best>(strokes + 1));
   best[0][0].cost = 0.0;
   for (std::size_t i = 0; i <= paths; ++i) {
@@ -32,9 +30,9 @@ StrokeReading read_in_this_order(std::shared_ptr<const StrokeCosts> costs, std::
         Best& then = best[i + more_paths][stroke + more_strokes];
         if (before + cost < then.cost) then = {before + cost, {path, more_paths, stroke, more_strokes, cost}};
       };
-      if (stroke < strokes) reach(0, 1, left_over_cost);
+      if (stroke < strokes) reach(0, 1, judge_constants.left_over_cost);
       if (i == paths) continue;
-      reach(1, 0, costs->is_tap(path) ? 0.0 : left_over_cost);
+      reach(1, 0, costs->is_tap(path) ? 0.0 : judge_constants.left_over_cost);
       if (stroke == strokes) continue;
       reach(1, 1, costs->single(path, stroke).cost);
       for (std::size_t more = 2; more <= std::min(max_joined, strokes - stroke); ++more) {

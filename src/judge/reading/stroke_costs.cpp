@@ -3,25 +3,22 @@
 #include <algorithm>
 #include <limits>
 
+#include "judge/judge_constants.hpp"
+
 namespace calligraphy {
 namespace {
 
-constexpr double turned_cost = 0.08;  // of a quarter turn, where the direction tells most; twice as much of a half [em]
-constexpr double backwards_cost = 0.02;      // by which a stroke must fit better backwards [em]
-constexpr double max_dot = 0.3;              // a tap may be a stroke up to this length [em]
-constexpr double alike = 0.15;               // cost up to which joined or broken strokes are told [em]
-constexpr double joined_length = 0.68;       // of what a pen draws that joins strokes, that a pen-down is long at least
-constexpr double joined_share = 0.75;        // of the cost as one of the strokes alone, at most
-constexpr double joined_share_of_few = 0.9;  // where there are fewer pen-downs than strokes
-constexpr double broken_gap = 0.25;          // between the parts of a broken stroke, of its length
-constexpr double broken_doubt = 0.04;        // by which one part alone may fit better [em]
-constexpr double impossible = 9.0;           // finite, since assign() takes differences [em]
+using detail::judge_constants;
+
+constexpr double impossible = 9.0;  // finite, since assign() takes differences [em]
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr PairCost impossible_pair = {never, 0.0, 0.0, false};
 
 }  // namespace
 
-double trust_in_direction(double length) { return std::min(1.0, 0.25 + length / 0.3); }
+double trust_in_direction(double length) {
+  return std::min(1.0, judge_constants.least_trust + length / judge_constants.trust_length);
+}
 
 std::vector<DrawnLine> drawn_lines(std::span<const PenPath> paths) {
   std::vector<DrawnLine> lines;
@@ -55,10 +52,11 @@ StrokeCosts::StrokeCosts(const StrokeOutlines& strokes, std::span<const DrawnLin
 
 PairCost StrokeCosts::compare(const Outline& line, const Outline& shape, const StrokeRun& run) {
   ++comparisons_;
-  const double turned = turned_cost * trust_in_direction(run.length);
+  const double turned = judge_constants.turned_cost * trust_in_direction(run.length);
   const double with = accord(shape, run.shape), against = accord(shape, reversed(run.shape));
   const double forwards = mean_distance(line, run.line) + turned * (1.0 - with);
-  const double backwards = mean_distance(line, reversed(run.line)) + turned * (1.0 - against) + backwards_cost;
+  const double backwards =
+      mean_distance(line, reversed(run.line)) + turned * (1.0 - against) + judge_constants.backwards_cost;
   return {std::min(forwards, backwards), with, against, backwards < forwards};
 }
 
@@ -69,22 +67,24 @@ void StrokeCosts::compare_singles(std::size_t path) {
       singles_.push_back(compare(placed_[path], shapes_[path], run));
       continue;
     }
-    const double cost = run.length > max_dot ? impossible : mean_distance(placed_[path], run.line);
+    const bool is_dot = run.length <= judge_constants.max_dot_length;
+    const double cost = is_dot ? mean_distance(placed_[path], run.line) : impossible;
     singles_.push_back({cost, 1.0, 1.0, false});
     ++comparisons_;
   }
 }
 
 void StrokeCosts::compare_joined(std::size_t path) {
-  const double share = placed_.size() < strokes() ? joined_share_of_few : joined_share;
+  const double share =
+      placed_.size() < strokes() ? judge_constants.max_joined_share_of_few : judge_constants.max_joined_share;
   for (std::size_t first = 0; first < strokes(); ++first) {
     double alone = single(path, first).cost;
     for (std::size_t count = 2; count <= std::min(max_joined, strokes() - first); ++count) {
       const StrokeRun& run = strokes_->run(first, count);
       alone = std::min(alone, single(path, first + count - 1).cost);
-      if (lengths_[path] < joined_length * run.way) continue;
+      if (lengths_[path] < judge_constants.min_joined_length * run.way) continue;
       const PairCost pair = compare(placed_[path], shapes_[path], run);
-      if (pair.cost >= std::min(alike, share * alone)) continue;
+      if (pair.cost >= std::min(judge_constants.max_joined_or_broken_cost, share * alone)) continue;
       joined_[(path * strokes() + first) * max_joined + count - 1] = pair;
     }
   }
@@ -94,10 +94,11 @@ void StrokeCosts::compare_broken(std::size_t path, double gap) {
   if (is_tap(path) || is_tap(path + 1)) return;
   const Outline &both = placed_with_next_[path], shape = centred(both);
   for (std::size_t stroke = 0; stroke < strokes(); ++stroke) {
-    if (gap > broken_gap * strokes_->length(stroke)) continue;
+    if (gap > judge_constants.max_broken_gap * strokes_->length(stroke)) continue;
     const PairCost pair = compare(both, shape, strokes_->run(stroke, 1));
     const double alone = std::min(single(path, stroke).cost, single(path + 1, stroke).cost);
-    if (pair.cost < std::min(alike, alone + broken_doubt)) broken_[path * strokes() + stroke] = pair;
+    const double most = std::min(judge_constants.max_joined_or_broken_cost, alone + judge_constants.broken_doubt);
+    if (pair.cost < most) broken_[path * strokes() + stroke] = pair;
   }
 }
 

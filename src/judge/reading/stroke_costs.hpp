@@ -12,9 +12,6 @@
 
 namespace calligraphy {
 
-/// Of a pen-down or a stroke that is left over, beyond which a pair is worse than none [em].
-inline constexpr double left_over_cost = 0.2;
-
 /// A pen-down as it came.
 struct DrawnLine {
   Outline line;

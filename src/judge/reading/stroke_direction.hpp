@@ -7,10 +7,8 @@
 
 namespace calligraphy {
 
-/// Length of the pen-downs of a step over that of the strokes that it takes them for, and below which only a part of a
-/// stroke was written, if what is missing is long enough to be sure.
+/// Length of the pen-downs of a step over that of the strokes that it takes them for.
 double length_share(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes);
-inline constexpr double least_share = 0.35, sure_length = 0.2;  // [1], [em]
 
 struct StrokeDirection {
   WritingDirection direction = WritingDirection::unknown;

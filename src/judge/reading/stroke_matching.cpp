@@ -12,6 +12,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 
+#include "judge/judge_constants.hpp"
 #include "judge/pens/require_paths.hpp"
 #include "judge/pens/writing_box.hpp"
 #include "judge/remarks/stroke_remarks.hpp"
@@ -22,8 +23,7 @@
 namespace calligraphy {
 namespace {
 
-constexpr double hardly_dearer = 1.25;  // than the form of least price
-constexpr double unlike_all = 0.085;    // price of the best form for each pen-down, from which it is like none [em]
+using detail::judge_constants;
 
 /// Of the pen-downs that wrote nothing and follow each other up to this one, or from it on, one that runs forwards
 /// along a stroke.
@@ -34,7 +34,7 @@ std::optional<std::size_t> correction_beside(const StrokeReading& reading, std::
   }
   const auto corrects = [&](std::size_t other) {
     const PairCost& pair = reading.costs->single(other, stroke);
-    return !reading.costs->is_tap(other) && !pair.backwards && pair.cost < left_over_cost;
+    return !reading.costs->is_tap(other) && !pair.backwards && pair.cost < judge_constants.left_over_cost;
   };
   for (std::size_t next = path + 1; next < is_extra.size() && is_extra[next]; ++next) {
     if (corrects(next)) return next;
@@ -71,7 +71,7 @@ double distance_of(const ReadingStep& step, const StrokeReading& reading, const 
 
 /// What a pen-down that wrote nothing attempted: the stroke that it resembles most, along or against which it runs.
 void find_attempt(DrawnStroke& drawn, std::size_t path, const StrokeReading& reading, const StrokeOutlines& strokes) {
-  double least = left_over_cost;
+  double least = judge_constants.left_over_cost;
   for (std::size_t stroke = 0; stroke < strokes.count() && !drawn.tap; ++stroke) {
     const double cost = reading.costs->single(path, stroke).cost;
     const WritingDirection direction = direction_of({path, 1, stroke, 1, cost}, reading, strokes).direction;
@@ -174,7 +174,7 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   require_valid(accepted);
   require_paths(paths);
   validate(tolerances);
-  const double spacing = pen_spacing * shortening(paths);
+  const double spacing = judge_constants.pen_spacing * shortening(paths);
   std::vector<PenPath> steady;
   for (const PenPath& path : paths) steady.push_back(without_jitter(path, spacing));
   std::vector<Matched> matched;
@@ -186,7 +186,7 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   }
   // Of forms of about the same price the one with the fewest mistakes.
   const auto rank = [&](const Matched& form) {
-    const bool is_dear = form.price > hardly_dearer * least_price;
+    const bool is_dear = form.price > judge_constants.max_similar_price * least_price;
     return std::tuple(is_dear, is_dear ? 0 : form.mistakes, form.price);
   };
   for (std::size_t i = 0; i < accepted.size(); ++i) {
@@ -198,7 +198,7 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   std::optional<OtherCharacter> other;
   // Of another character a form of fewer or more strokes may be a little less unlike than one with which it can be
   // compared; right writing with a mistake is like its own form.
-  const bool is_like_best = matched[best].price < unlike_all * static_cast<double>(steady.size());
+  const bool is_like_best = matched[best].price < judge_constants.unlike_price * static_cast<double>(steady.size());
   if (others && as_many && (best == *as_many || !is_like_best)) {
     other = other_character(others->features(), accepted[*as_many], steady, matched[*as_many].reading);
     if (other) best = *as_many;

@@ -1,7 +1,6 @@
 #include "stroke_reading.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "assignment.hpp"
+#include "judge/judge_constants.hpp"
 #include "longest_rise.hpp"
 #include "reading_in_order.hpp"
 #include "stroke_direction.hpp"
@@ -19,16 +19,14 @@
 namespace calligraphy {
 namespace {
 
-constexpr double min_doubt = 0.03;      // that another order or another place must save at least [em]
-constexpr double careless = 2.0;        // mean costs of this hand that another order must save, or factor
-constexpr double max_substitute = 0.7;  // cost of a pair that is told rather than both left over [em]
-constexpr double max_attempt = 0.08, attempt_share = 0.25;  // cost of an attempt [em], and of that of the other stroke
-constexpr int max_refits = 5;
-constexpr double better = 5e-4;              // by which a refit must be [em]
-constexpr double unlike = 0.06;              // mean cost above which the fit is doubted [em]
-constexpr std::array turns = {-16.0, 16.0};  // of the writing, with which reading begins [degrees]
+using detail::judge_constants;
 
 using Costs = std::shared_ptr<const StrokeCosts>;
+
+/// Of another order, by a hand of this mean cost [em].
+double least_saving(double mean_cost) {
+  return std::max(judge_constants.min_saving, judge_constants.saving_factor * mean_cost);
+}
 
 class Reader {
  public:
@@ -40,10 +38,10 @@ class Reader {
   /// can tell a slanted hand from a slanted stroke.
   StrokeReading read() {
     const Start boxed = begin(box_of_turned(0.0)), here = begin(AffineMap());
-    Pair best = refine(here.cost() < boxed.cost() - min_doubt ? here : boxed);
+    Pair best = refine(here.cost() < boxed.cost() - judge_constants.min_saving ? here : boxed);
     StrokeReading chosen = choose(best);
-    if (paths_.size() > 1 && (!is_unremarkable(chosen) || chosen.mean_cost() >= unlike)) {
-      for (const double degrees : turns) {
+    if (paths_.size() > 1 && (!is_unremarkable(chosen) || chosen.mean_cost() >= judge_constants.doubtful_mean_cost)) {
+      for (const double degrees : {-judge_constants.start_turn, judge_constants.start_turn}) {
         const Pair pair = refine(begin(box_of_turned(degrees)));
         if (pair.in_order.cost < best.in_order.cost) best.in_order = pair.in_order;
         if (pair.free.cost < best.free.cost) best.free = pair.free;
@@ -91,7 +89,8 @@ class Reader {
         if (missing.paths > 0) continue;
         const double cost = costs.single(extra.path, missing.stroke).cost;
         const bool is_beside = k + 1 == i || k == i + 1;
-        if (cost > (is_beside ? max_substitute : left_over_cost) || cost >= least) continue;
+        const double most = is_beside ? judge_constants.max_substitute_cost : judge_constants.left_over_cost;
+        if (cost > most || cost >= least) continue;
         found = k;
         least = cost;
       }
@@ -111,14 +110,15 @@ class Reader {
       if (step.paths != 1 || step.strokes != 1 || costs.is_tap(step.path)) continue;
       const std::size_t nearest = nearest_stroke(costs, step.path);
       const double cost = costs.single(step.path, nearest).cost;
-      if (nearest == step.stroke || cost > std::min(max_attempt, attempt_share * step.cost)) continue;
+      const double most = std::min(judge_constants.max_attempt_cost, judge_constants.max_attempt_share * step.cost);
+      if (nearest == step.stroke || cost > most) continue;
       const bool is_repeated = std::any_of(reading.steps.begin(), reading.steps.end(), [&](const ReadingStep& other) {
         const bool is_beside = other.path + 1 == step.path || other.path == step.path + 1;
         return is_beside && other.paths == 1 && other.strokes == 0 && nearest_stroke(costs, other.path) == nearest;
       });
       if (!is_repeated) continue;
-      missing.push_back({step.path, 0, step.stroke, 1, left_over_cost});
-      step = {step.path, 1, step.stroke, 0, left_over_cost};
+      missing.push_back({step.path, 0, step.stroke, 1, judge_constants.left_over_cost});
+      step = {step.path, 1, step.stroke, 0, judge_constants.left_over_cost};
     }
     reading.steps.insert(reading.steps.end(), missing.begin(), missing.end());
   }
@@ -136,11 +136,11 @@ class Reader {
 
   /// Fits the writing to the reading and reads again, as long as the cost falls.
   StrokeReading refine(Rule rule, StrokeReading reading, const AffineMap& start) {
-    for (int i = 0; i < max_refits; ++i) {
+    for (int i = 0; i < judge_constants.max_refits; ++i) {
       const std::optional<AffineMap> fit = fit_writing(reading, strokes_, drawn_, start);
       if (!fit) break;
       StrokeReading next = (this->*rule)(place(*fit));
-      if (next.cost >= reading.cost - better) break;
+      if (next.cost >= reading.cost - judge_constants.min_refit_gain) break;
       reading = std::move(next);
     }
     return reading;
@@ -200,7 +200,7 @@ class Reader {
   /// A careless hand needs more evidence for another order than a neat one; small strokes are told apart by the factor.
   static double evidence_of(double cost, double other, double mean_cost) {
     if (cost <= other) return 0.0;
-    return std::max((cost - other) / std::max(min_doubt, careless * mean_cost), cost / (careless * other));
+    return std::max((cost - other) / least_saving(mean_cost), cost / (judge_constants.saving_factor * other));
   }
 
   bool is_unremarkable(const StrokeReading& reading) const {
@@ -230,7 +230,7 @@ class Reader {
       }
     }
     std::vector<std::optional<std::size_t>> strokes(costs->paths());
-    const auto owners = assign(pairs, costs->paths(), left_over_cost);
+    const auto owners = assign(pairs, costs->paths(), judge_constants.left_over_cost);
     for (std::size_t stroke = 0; stroke < owners.size(); ++stroke) {
       if (owners[stroke]) strokes[*owners[stroke]] = stroke;
     }
@@ -338,7 +338,7 @@ double StrokeReading::mean_cost() const {
 }
 
 double StrokeReading::price(std::size_t out_of_order) const {
-  return cost + static_cast<double>(out_of_order) * std::max(min_doubt, careless * mean_cost());
+  return cost + static_cast<double>(out_of_order) * least_saving(mean_cost());
 }
 
 StrokeReading read_strokes(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "judge/judge_constants.hpp"
 #include "judge/pens/resemblance.hpp"
 #include "judge/remarks/stroke_remarks.hpp"
 #include "stroke_direction.hpp"
@@ -13,12 +14,8 @@
 namespace calligraphy {
 namespace {
 
-// What there is to remark, as a distance [em]:
-constexpr double missing_cost = 0.05;
-constexpr double attempt_cost = 0.05;   // of an extra pen-down, beside its distance from a stroke
-constexpr double max_extra_cost = 0.2;  // of one that is far from all strokes
-constexpr double absurd_cost = 10.0;    // of one that is extra because its stroke was supposed
-constexpr double other_cost = 0.05;
+using detail::judge_constants;
+constexpr double absurd_cost = 10.0;  // of a pen-down that is extra because its stroke was supposed [em]
 
 /// A path with the rest of the stroke that it has begun, moved to where the path ends.
 PenPath finished(PenPath path, const PenPath& stroke) {
@@ -44,7 +41,7 @@ bool is_written(const MatchResult& match, std::size_t stroke) {
 double extra_cost(const PenPath& path, const std::vector<PenPath>& lines, std::size_t count) {
   const double length = path_length(path);
   const Outline drawn = outline(path);
-  double least = max_extra_cost - attempt_cost;
+  double least = judge_constants.max_extra_cost - judge_constants.extra_attempt_cost;
   bool is_supposed = false;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const PenPath back(lines[i].rbegin(), lines[i].rend());
@@ -55,7 +52,7 @@ double extra_cost(const PenPath& path, const std::vector<PenPath>& lines, std::s
       is_supposed = i >= count;
     }
   }
-  return is_supposed ? absurd_cost : attempt_cost + least;
+  return is_supposed ? absurd_cost : judge_constants.extra_attempt_cost + least;
 }
 
 /// What is to be remarked, and how far the paths are from their strokes, as a distance [em].
@@ -64,12 +61,12 @@ double cost(const MatchResult& result, std::span<const PenPath> paths, const std
   double sum = 0.0;
   for (const StrokeRemark& remark : result.remarks) {
     if (remark.kind == StrokeRemarkKind::missing) {
-      sum += missing_cost;
+      sum += judge_constants.missing_cost;
     } else if (remark.kind == StrokeRemarkKind::extra) {
       const auto path = static_cast<std::size_t>(remark.path);
       sum += path < paths.size() ? extra_cost(paths[path], lines, count) : absurd_cost;
     } else {
-      sum += other_cost;
+      sum += judge_constants.other_remark_cost;
     }
   }
   for (std::size_t path = 0; path < paths.size(); ++path) sum += result.drawn[path].distance;
@@ -79,7 +76,7 @@ double cost(const MatchResult& result, std::span<const PenPath> paths, const std
 /// A stroke that was begun when the character was broken off has the direction in which it was begun, however little of
 /// it there is.
 void see_what_was_begun(DrawnStroke& drawn, const PenPath& path, const AffineMap& fit, const PenPath& line) {
-  if (drawn.direction != WritingDirection::neither || drawn.length >= least_share) return;
+  if (drawn.direction != WritingDirection::neither || drawn.length >= judge_constants.least_share) return;
   const std::vector<Point> ends = points_along(line, std::min(path_length(line), path_length(path)), 2);
   const Point begun = fit.linear * (path.back() - path.front());
   drawn.direction =

@@ -12,8 +12,8 @@
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/judge/pen_path.hpp>
 
+#include "judge/judge_constants.hpp"
 #include "judge/pens/resemblance.hpp"
-#include "judge/reading/stroke_direction.hpp"
 
 namespace calligraphy {
 namespace {
@@ -71,7 +71,7 @@ class Sentence {
       case StrokeRemarkKind::direction:
         return say(starts_at_a_side(remark_.stroke) ? "direction.placed" : "direction");
       case StrokeRemarkKind::shape: {
-        const std::string_view key = remark_.length < least_share ? "part" : "shape";
+        const std::string_view key = remark_.length < detail::judge_constants.least_share ? "part" : "shape";
         const bool is_straight = remark_.stroke_count == 1 && is_told_by_its_ends(remark_.stroke);
         return say(std::string(key) + (is_straight ? ".straight" : ""));
       }

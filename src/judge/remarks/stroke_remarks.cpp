@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 
+#include "judge/judge_constants.hpp"
 #include "judge/pens/resemblance.hpp"
 #include "judge/pens/writing_box.hpp"
 #include "judge/reading/writing_order.hpp"
@@ -13,7 +14,7 @@
 namespace calligraphy {
 namespace {
 
-constexpr double short_share = 0.2;  // of a broken stroke, that its shorter part must exceed to be told more surely
+using detail::judge_constants;
 
 class Remarks {
  public:
@@ -89,7 +90,9 @@ class Remarks {
            .length = drawn.length,
            .direction = drawn.direction});
     };
-    if (goes_on) tell_of_stroke(StrokeRemarkKind::broken, std::max(1.0, shorter_share(path) / short_share));
+    if (goes_on) {
+      tell_of_stroke(StrokeRemarkKind::broken, std::max(1.0, shorter_share(path) / judge_constants.sure_part));
+    }
     if (drawn.stroke_count > 1) tell_of_stroke(StrokeRemarkKind::joined, 0.5 * drawn.stroke_count);
     if (drawn.direction == WritingDirection::backwards) {
       tell_of_stroke(StrokeRemarkKind::direction, drawn.evidence);

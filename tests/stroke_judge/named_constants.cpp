@@ -1,0 +1,98 @@
+#include "named_constants.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+
+#include <calligraphy/base/error.hpp>
+
+#include "judge/judge_constants.hpp"
+
+namespace calligraphy_test {
+namespace {
+
+using calligraphy::ValueError;
+using calligraphy::detail::JudgeConstants;
+
+struct NamedConstant {
+  std::string_view name;
+  double JudgeConstants::*member;
+};
+
+constexpr auto named_constants = std::to_array<NamedConstant>({
+    {"pen_spacing", &JudgeConstants::pen_spacing},
+    {"join_cost", &JudgeConstants::join_cost},
+    {"break_cost", &JudgeConstants::break_cost},
+    {"unlikely_count_cost", &JudgeConstants::unlikely_count_cost},
+    {"max_substitute_cost", &JudgeConstants::max_substitute_cost},
+    {"max_attempt_cost", &JudgeConstants::max_attempt_cost},
+    {"max_attempt_share", &JudgeConstants::max_attempt_share},
+    {"max_similar_price", &JudgeConstants::max_similar_price},
+    {"left_over_cost", &JudgeConstants::left_over_cost},
+    {"turned_cost", &JudgeConstants::turned_cost},
+    {"least_trust", &JudgeConstants::least_trust},
+    {"trust_length", &JudgeConstants::trust_length},
+    {"backwards_cost", &JudgeConstants::backwards_cost},
+    {"max_dot_length", &JudgeConstants::max_dot_length},
+    {"max_joined_or_broken_cost", &JudgeConstants::max_joined_or_broken_cost},
+    {"min_joined_length", &JudgeConstants::min_joined_length},
+    {"max_joined_share", &JudgeConstants::max_joined_share},
+    {"max_joined_share_of_few", &JudgeConstants::max_joined_share_of_few},
+    {"max_broken_gap", &JudgeConstants::max_broken_gap},
+    {"broken_doubt", &JudgeConstants::broken_doubt},
+    {"box_flat_side", &JudgeConstants::box_flat_side},
+    {"max_box_stretch", &JudgeConstants::max_box_stretch},
+    {"fit_pull", &JudgeConstants::fit_pull},
+    {"max_fitted_cost", &JudgeConstants::max_fitted_cost},
+    {"max_fit_slant", &JudgeConstants::max_fit_slant},
+    {"max_fit_scale", &JudgeConstants::max_fit_scale},
+    {"max_refits", &JudgeConstants::max_refits},
+    {"min_refit_gain", &JudgeConstants::min_refit_gain},
+    {"doubtful_mean_cost", &JudgeConstants::doubtful_mean_cost},
+    {"start_turn", &JudgeConstants::start_turn},
+    {"forwards_angle", &JudgeConstants::forwards_angle},
+    {"backwards_angle", &JudgeConstants::backwards_angle},
+    {"untrusted_angle", &JudgeConstants::untrusted_angle},
+    {"least_share", &JudgeConstants::least_share},
+    {"sure_length", &JudgeConstants::sure_length},
+    {"min_saving", &JudgeConstants::min_saving},
+    {"saving_factor", &JudgeConstants::saving_factor},
+    {"sure_part", &JudgeConstants::sure_part},
+    {"feature_deviation", &JudgeConstants::feature_deviation},
+    {"min_deviation_share", &JudgeConstants::min_deviation_share},
+    {"beyond_middle", &JudgeConstants::beyond_middle},
+    {"carelessness", &JudgeConstants::carelessness},
+    {"lookalike_distance", &JudgeConstants::lookalike_distance},
+    {"drawn_alike_distance", &JudgeConstants::drawn_alike_distance},
+    {"unlike_price", &JudgeConstants::unlike_price},
+    {"missing_cost", &JudgeConstants::missing_cost},
+    {"extra_attempt_cost", &JudgeConstants::extra_attempt_cost},
+    {"max_extra_cost", &JudgeConstants::max_extra_cost},
+    {"other_remark_cost", &JudgeConstants::other_remark_cost},
+});
+static_assert(sizeof(JudgeConstants) == named_constants.size() * sizeof(double), "a constant has no name");
+
+}  // namespace
+
+void set_constant(const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  const std::string name = assignment.substr(0, equals);
+  const auto found = std::find_if(named_constants.begin(), named_constants.end(),
+                                  [&name](const NamedConstant& each) { return each.name == name; });
+  if (found == named_constants.end()) {
+    std::string names;
+    for (const NamedConstant& each : named_constants) names += "\n    " + std::string(each.name);
+    throw ValueError("--constant " + assignment + ": expected NAME=VALUE with one of these names:" + names);
+  }
+  const std::string text = equals == std::string::npos ? "" : assignment.substr(equals + 1);
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value)) {
+    throw ValueError("--constant " + assignment + ": expected a finite number after '='");
+  }
+  calligraphy::detail::judge_constants.*found->member = value;
+}
+
+}  // namespace calligraphy_test
