@@ -15,14 +15,14 @@
 namespace calligraphy {
 namespace {
 
-/// Between two looks at what the servo loop has done.
-constexpr std::chrono::milliseconds glance(20);
+/// Time between two updates of the display.
+constexpr std::chrono::milliseconds update_interval(20);
 
-/// For as long may the calling thread be away before ticks are lost [s].
+/// Time for which the calling thread can be away before ticks are lost [s].
 constexpr double max_absence = 2.0;
 
-/// Of the servo loop, when its rate is low [ticks].
-constexpr double min_patience = 3.0;
+/// Minimum timeout of the servo loop, which matters at low rates [ticks].
+constexpr double min_timeout = 3.0;
 
 /// One tick for the calling thread: what the recording keeps, and what only a display shows.
 struct LiveTick {
@@ -51,8 +51,8 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
   SampleQueue<LiveTick> queue(static_cast<std::size_t>(std::ceil(max_absence * rate)));
   ServoLoopOptions servo = options.servo;
   if (servo.servo.rate == 0.0) servo.servo.rate = rate;
-  servo.servo.timeout = std::max(servo.servo.timeout, min_patience / rate);
-  std::atomic<bool> in_front = false;  // an inkwell lies behind the paper: the way out of it is no writing
+  servo.servo.timeout = std::max(servo.servo.timeout, min_timeout / rate);
+  std::atomic<bool> in_front = false;  // the way out of an inkwell, which lies behind the paper, is not writing
   std::atomic<double> behind = 0.0;
   std::atomic<bool> has_failed = false;
   ForceLaw loop_law = [&](const DeviceState& state) noexcept {
@@ -81,7 +81,7 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
     view.to_start = newest.to_start;
   };
   const int count = static_cast<int>(page.characters.size());
-  const auto goes_on = [&] {
+  const auto watch = [&] {
     view.advice = device.advice();
     return !options.watch || options.watch(view);
   };
@@ -89,16 +89,16 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
   const double begin = monotonic_seconds();
   result.warnings = loop.start([&](const std::vector<std::string>& warnings) {
     view.warnings = warnings;
-    is_wanted = goes_on();
+    is_wanted = watch();
   });
   while (is_wanted && monotonic_seconds() - begin < options.timeout) {
-    std::this_thread::sleep_for(glance);
+    std::this_thread::sleep_for(update_interval);
     take_over();
     view.servo = loop.status();
     view.started = in_front.load(std::memory_order_relaxed);
     view.behind = behind.load(std::memory_order_relaxed);
     view.progress = share_written(page, view.newest.character, view.newest.stroke);
-    if (!goes_on() || has_failed.load(std::memory_order_relaxed)) break;
+    if (!watch() || has_failed.load(std::memory_order_relaxed)) break;
     if (view.newest.character >= count && view.newest.state != InteractionState::writing) break;
   }
   loop.stop();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-/// From here on the normal distribution is within 2e-6 of the quantile, and the sums below would be long.
+/// From here on the normal quantile is within 2e-6 of Student's, and the sums below would be long.
 constexpr std::size_t almost_normal = 1'000'000;
 constexpr double normal_quantile = 1.959963984540054;
 

@@ -1,4 +1,4 @@
-// The share of a way that is behind the hand after a share of its time (Flash and Hogan 1985).
+// Share of its way that a hand has covered after a share of the time, with minimum jerk (Flash and Hogan 1985).
 #pragma once
 
 #include <algorithm>

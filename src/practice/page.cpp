@@ -15,7 +15,7 @@
 namespace calligraphy {
 
 PageLayout workspace_layout(const Capabilities& device, const MotionMapping& mapping) {
-  // Along a page axis the workspace ends at the first of its faces.
+  // Along a page axis the workspace ends at the nearest of its faces.
   const auto extent = [&](Eigen::Index axis) {
     const Eigen::Vector3d direction = mapping.rotation.row(axis).cwiseAbs();
     double least = std::numeric_limits<double>::infinity();

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double max_bounce = 0.05;  // nobody lifts a pen and lowers it again within half a period of 10 Hz [s]
 constexpr double rounding = 1e-6;    // of times [s]
-constexpr double max_lost = 0.1;     // nor lifts it, goes to the next stroke and lowers it within this time [s]
+constexpr double max_lost = 0.1;     // or lifts it and lowers it at the next stroke within this time [s]
 
 }  // namespace
 
@@ -23,9 +23,9 @@ std::vector<PenDown> pen_downs(const Recording& recording) {
     const bool on_paper = sample.state != InteractionState::separation;
     if (on_paper) {
       const double longest = was_on_paper ? max_lost : max_bounce;
-      const bool goes_on = !result.empty() && ((was_on_paper && !was_lost) ||
-                                               sample.time <= result.back().samples.back().time + longest + rounding);
-      if (!goes_on) result.push_back({sample.character, {}, 0.0, true});
+      const bool continues = !result.empty() && ((was_on_paper && !was_lost) ||
+                                                 sample.time <= result.back().samples.back().time + longest + rounding);
+      if (!continues) result.push_back({sample.character, {}, 0.0, true});
       result.back().pressed += std::max(0.0, sample.force.z());
       result.back().samples.push_back({sample.pen_tip.head<2>(), sample.time});
     }

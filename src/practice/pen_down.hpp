@@ -16,14 +16,14 @@ inline bool is_usable(const RecordedSample& sample) noexcept {
 
 /// One pen-down on the page.
 struct PenDown {
-  int character = 0;     ///< the one that was active when it began
-  PenStroke samples;     ///< usable ones on the paper [m, s]
+  int character = 0;     ///< index of the active character when it began
+  PenStroke samples;     ///< usable samples on the paper [m, s]
   double pressed = 0.0;  ///< sum of the force out of the paper over the samples [N]
-  bool lifted = true;    ///< false of the last one, where the recording ends on the paper
+  bool lifted = true;    ///< false only for the last one, if the recording ends with the pen on the paper
 };
 
-/// A lift of at most 50 ms is a bounce and ends no pen-down, nor does it end where samples are lost for at most 100 ms
-/// and no sample shows a lift: people take longer from one stroke to the next.
+/// A lift of at most 50 ms is a bounce and does not end a pen-down; nor does a loss of samples for at most 100 ms,
+/// unless a sample shows a lift: people take longer from one stroke to the next.
 std::vector<PenDown> pen_downs(const Recording& recording);
 
 }  // namespace calligraphy

@@ -14,7 +14,7 @@
 namespace calligraphy {
 namespace {
 
-/// In a recording of the page the pen was this near to half of the strokes when it finished them [em].
+/// Limit on the median distance of the pen from the strokes as they were finished, for the same page [em].
 constexpr double max_finish_distance = 0.25;
 
 [[noreturn]] void refuse(const std::string& why) { throw ValueError("the recording is of another page: " + why); }

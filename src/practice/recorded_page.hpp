@@ -1,4 +1,4 @@
-// The page that a recording was made on, as far as its samples tell.
+// Which page a recording was made on, as far as its samples show.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@ struct StrokeIndex {
   std::size_t character, stroke;
 };
 
-/// The stroke that was finished in this tick, which already names the next one. The recording must be of the page.
+/// The stroke finished in this tick, whose sample already names the next one. The recording must be of the page.
 StrokeIndex finished_stroke(const PracticePage& page, const RecordedSample& sample);
 
-/// @throws ValueError if the recording is known to be of another page, or was on characters or strokes that this one
-/// lacks, or finished strokes that lie elsewhere on this one; and if its time runs backwards
+/// @throws ValueError if the recording names another page, contains characters or strokes that this one lacks, or
+/// finished strokes that lie elsewhere on this one; also if its time runs backwards
 void require_same_page(const PracticePage& page, const Recording& recording);
 
 }  // namespace calligraphy

@@ -24,8 +24,8 @@ constexpr std::array<std::string_view, 16> column_names = {
     "force_y_N", "force_z_N",  "state",      "events",     "status",  "character", "stroke",  "tick_ns"};
 constexpr std::string_view rate_comment = "# rate_Hz=", page_comment = " page=", law_comment = " law=";
 constexpr std::size_t max_recording_bytes = 1 << 30;  ///< more than an hour at 1 kHz
-constexpr std::size_t max_row_bytes = 4096;           ///< sixteen values of any length that is written
-constexpr std::size_t max_law_bytes = 1000;           ///< of its name
+constexpr std::size_t max_row_bytes = 4096;           ///< enough for sixteen values as written
+constexpr std::size_t max_law_bytes = 1000;           ///< the rest of a name is not written
 constexpr std::size_t chunk = 1 << 16;                ///< bytes given to the stream at a time
 
 constexpr std::array states = {InteractionState::separation, InteractionState::adjusting, InteractionState::calibration,
@@ -62,7 +62,7 @@ void append_row(std::string& text, const RecordedSample& sample) {
   text += '\n';
 }
 
-/// Reads what write_recording writes, and nothing else but line ends of either kind.
+/// Reads what write_recording writes and nothing else, except that line ends may be of either kind.
 class RecordingParser : private LineReader {
  public:
   RecordingParser(std::istream& in, std::string_view name)
@@ -165,8 +165,8 @@ class RecordingParser : private LineReader {
     fail(std::string(column_names[i]) + " is '" + std::string(values_[i]) + "': expected " + expected);
   }
 
-  std::array<std::string_view, column_names.size()> values_;  ///< of the line
-  std::size_t column_ = 0;                                    ///< the next one
+  std::array<std::string_view, column_names.size()> values_;  ///< values of the current line
+  std::size_t column_ = 0;                                    ///< next value to be read
 };
 
 }  // namespace

@@ -20,14 +20,14 @@ namespace calligraphy {
 namespace {
 
 constexpr double contour_tolerance = 0.05;  // error at which the contour score has fallen to 1/e [em]
-constexpr double sensor_noise = 1e-4;       // the points of a pen that rests are nearer to each other [m]
-constexpr std::size_t line_points = 101;    // of a stroke: its coverage is told to 1 %
+constexpr double sensor_noise = 1e-4;       // points of a resting pen are closer together than this [m]
+constexpr std::size_t line_points = 101;    // per stroke: resolves its coverage to 1 %
 
-/// Sums an error along a path.
+/// Error accumulated along a path.
 struct PathError {
   double length = 0.0, square = 0.0, largest = 0.0;
 
-  /// A step that is off by so much at its two ends.
+  /// Adds a step with these errors at its two ends.
   void add(double from, double to, double step) {
     length += step;
     square += 0.5 * (from * from + to * to) * step;
@@ -63,12 +63,12 @@ std::vector<Point> points_of(const PenStroke& samples) {
   return points;
 }
 
-/// A stroke of the page, prepared.
+/// A stroke of the page, prepared for measuring.
 struct Template {
   std::vector<StrokeElement> elements;
-  std::vector<Point> fine;  ///< with its corners
+  std::vector<Point> fine;  ///< middle line, corners included [m]
   double length;            ///< [m]
-  std::vector<Point> line;  ///< at even steps
+  std::vector<Point> line;  ///< the same at even steps [m]
 
   Template(const Stroke& stroke, const Placement& placement)
       : elements(place_elements(stroke, placement)),
@@ -83,7 +83,7 @@ struct Template {
   }
 };
 
-/// A stroke within a line through several: from and to this share of the line.
+/// Part of a joined line that is one stroke, between these shares of the line's length.
 struct LinePart {
   std::size_t stroke;
   double from, to;
@@ -94,7 +94,7 @@ struct JoinedLine {
   std::vector<LinePart> parts;
 };
 
-/// A part of a stroke, from and to this share of its length.
+/// Part of a stroke, between these shares of its length.
 struct Interval {
   double from, to;
 };
@@ -113,10 +113,10 @@ double covered(std::vector<Interval> parts) {
 /// What was written of a stroke.
 struct Written {
   std::vector<std::size_t> paths;  ///< the pen-downs
-  std::vector<Interval> parts;     ///< of the stroke, that they follow
-  std::vector<Point> points;       ///< of the pen, that lie along it [m]
+  std::vector<Interval> parts;     ///< parts of the stroke that they follow
+  std::vector<Point> points;       ///< points of the pen along it [m]
   bool backwards = false;
-  PathError error;  ///< of the pen
+  PathError error;  ///< error of these points
 };
 
 double mean_pressure(std::span<const PenDown* const> downs) {
@@ -182,7 +182,7 @@ class CharacterScorer {
     }
   }
 
-  /// The strokes that a pen-down wrote, one after the other with the ways between them.
+  /// The strokes that a pen-down wrote, joined by straight lines.
   JoinedLine join(const DrawnStroke& drawn, bool from_the_end) const {
     JoinedLine line;
     double length = 0.0;
@@ -203,16 +203,16 @@ class CharacterScorer {
     return line;
   }
 
-  /// Those that lie along a part of the line; whether there are any.
+  /// Adds the points that lie along a part of the line. Returns whether there are any.
   bool add_points(const std::vector<Point>& points, const Alignment& whole, const LinePart& part, Written& written) {
     const std::size_t before = written.points.size();
     double last_error = 0.0;
-    bool goes_on = false;
+    bool continues = false;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const bool lies_along = part.from <= whole.places[i] && whole.places[i] <= part.to;
       if (lies_along) {
         const double error = templates_[part.stroke].distance_from(points[i]);
-        if (goes_on) {
+        if (continues) {
           written.error.add(last_error, error, (points[i] - points[i - 1]).norm());
         } else {
           written.error.add(error, error, 0.0);
@@ -220,7 +220,7 @@ class CharacterScorer {
         last_error = error;
         written.points.push_back(points[i]);
       }
-      goes_on = lies_along;
+      continues = lies_along;
     }
     return written.points.size() > before;
   }
@@ -236,7 +236,7 @@ class CharacterScorer {
     score.dtw_distance = dtw_distance(written.points, templates_[stroke].fine);
   }
 
-  /// What was left out of a stroke, as far as it is from the ink, and at least as far as what was written.
+  /// Adds the unwritten part of a stroke to the error, with its distance from the ink, or `least` where that is more.
   void add_rest(std::size_t stroke, double least, PathError& error) const {
     const Written& written = written_[stroke];
     const std::vector<Point>& line = templates_[stroke].line;
@@ -252,7 +252,7 @@ class CharacterScorer {
     }
   }
 
-  /// Of the stroke, or of all strokes where it was not written.
+  /// Distance to the ink of the stroke, or to that of all strokes if it was not written.
   double distance_to_ink(const Point& point, const Written& written) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t path = 0; path < paths_.size(); ++path) {
@@ -264,9 +264,9 @@ class CharacterScorer {
     return nearest;
   }
 
-  /// A pen-down that joined several strokes wrote each of them so.
+  /// Number of strokes written wrongly; a pen-down that joined several counts for each of them.
   template <typename Wrong>
-  int strokes_written(Wrong wrong) const {
+  int count_strokes(Wrong wrong) const {
     int count = 0;
     for (const DrawnStroke& drawn : result_.match.drawn) {
       if (drawn.stroke >= 0 && !drawn.continues && wrong(drawn)) count += drawn.stroke_count;
@@ -304,9 +304,9 @@ class CharacterScorer {
     result_.dtw_distance = dtw / result_.strokes_written;
     const double strokes = result_.stroke_count, right = result_.strokes_written;
     result_.contour = contour / strokes;
-    const int out_of_turn = strokes_written([](const DrawnStroke& drawn) { return !drawn.in_turn; });
+    const int out_of_turn = count_strokes([](const DrawnStroke& drawn) { return !drawn.in_turn; });
     const int backwards =
-        strokes_written([](const DrawnStroke& drawn) { return drawn.direction == WritingDirection::backwards; });
+        count_strokes([](const DrawnStroke& drawn) { return drawn.direction == WritingDirection::backwards; });
     result_.external_sequence =
         std::max(0.0, right - out_of_turn) / (strokes + result_.match.count(StrokeRemarkKind::extra));
     result_.internal_sequence = std::max(0.0, right - backwards) / strokes;
@@ -316,12 +316,12 @@ class CharacterScorer {
   const Placement placement_;
   const std::vector<const PenDown*> downs_;
   std::vector<Template> templates_;
-  std::vector<std::vector<Point>> paths_;  ///< of the pen-downs [m]
+  std::vector<std::vector<Point>> paths_;  ///< points of the pen-downs [m]
   CharacterScore result_;
   std::vector<Written> written_;  ///< of each stroke
 };
 
-/// The character in whose square the pen-down lies, or the nearest; of several, the one that was active.
+/// The character in whose square the pen-down lies, or the nearest; if there are several, the one that was active.
 std::size_t character_of(const PenDown& down, const PracticePage& page) {
   Point middle = Point::Zero();
   for (const TimedPoint& sample : down.samples) middle += sample.point / static_cast<double>(down.samples.size());
@@ -340,7 +340,7 @@ std::size_t character_of(const PenDown& down, const PracticePage& page) {
   return nearest;
 }
 
-/// What the session says of a character: strokes finished, time and force.
+/// Adds what the session recorded of each character: strokes finished, time and force.
 void add_session(const Recording& recording, const PracticePage& page, std::vector<CharacterScore>& scores) {
   const RecordedSample* before = nullptr;
   for (const RecordedSample& sample : recording.samples) {

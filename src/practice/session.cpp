@@ -10,7 +10,7 @@
 namespace calligraphy {
 namespace {
 
-/// Where the pen waits before the first stroke, above the middle of the page [m].
+/// Height at which the pen waits before the first stroke, above the middle of the page [m].
 constexpr double resting_height = 0.02;
 
 /// Samples between two calls of the progress function.
@@ -40,7 +40,7 @@ Recording run_session(const PracticePage& page, const SessionOptions& options, c
   const MotionMapping mapping = options.mapping.value_or(upright_page(page.width, page.height));
   Capabilities capabilities = options.device;
   capabilities.simulated = true;
-  // First, because it refuses a wrong mapping, which would give the device no position.
+  // The renderer comes first because it rejects an invalid mapping, with which the device would have no position.
   HapticRenderer renderer(page.characters, mapping, capabilities, options.renderer);
   SimulatedDevice device(capabilities, options.skill.grip, mapping.to_device(resting_point(page)));
 

@@ -25,16 +25,16 @@ const HapticTick& SessionTick::update(const DeviceState& state) noexcept {
   sample_ = {tick.time,  tick.device_point, tick.pen_tip,   tick.page_force, tick.state,
              tick.events, tick.status,       tick.character, tick.stroke,     0.0F};
   force_ = tick.force;
-  if (law_) ask(state);
+  if (law_) apply_law(state);
   has_failed_ = has_failed_ || sample_.status == TickStatus::bad_law;
   if (mode_ == FeedbackMode::vision) force_ = sample_.force = Eigen::Vector3d::Zero();
   if (measure_) sample_.tick_ns = static_cast<float>(1e9 * (monotonic_seconds() - before));
   return tick;
 }
 
-/// As a servo does: of a sample that is good, with a velocity; no more than the device's peak, and nothing that is not
-/// finite.
-void SessionTick::ask(DeviceState state) noexcept {
+/// Calls the law as a servo does: only for good samples, with their velocity filled in, and with the force limited to
+/// the device's peak; a force that is not finite is a failure.
+void SessionTick::apply_law(DeviceState state) noexcept {
   force_ = sample_.force = Eigen::Vector3d::Zero();
   if (sample_.status != TickStatus::ok || has_failed_) return;
   if (!state.velocity.allFinite()) {

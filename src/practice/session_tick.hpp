@@ -1,4 +1,4 @@
-// One tick of a session, whoever holds the pen: the force, and the line that the recording keeps of it.
+// One tick of a session, whoever holds the pen: its force, and its sample in the recording.
 #pragma once
 
 #include <exception>
@@ -11,24 +11,24 @@
 
 namespace calligraphy {
 
-/// Asks the renderer, and the law for the whole force if there is one, and by choice reads the clock round them.
+/// Updates the renderer, takes the whole force from the law if there is one, and optionally times both.
 class SessionTick {
  public:
   SessionTick(HapticRenderer& renderer, const Capabilities& device, FeedbackMode mode, const ForceLaw& law,
               bool measure);
 
-  /// The force for the device is force().
+  /// Processes a sample; force() is then the force for the device.
   const HapticTick& update(const DeviceState& state) noexcept;
 
   const Eigen::Vector3d& force() const noexcept { return force_; }
   const RecordedSample& sample() const noexcept { return sample_; }
   /// Whether the force law or the guidance law has thrown, or its force was not finite: TickStatus::bad_law.
   bool has_failed() const noexcept { return has_failed_; }
-  /// What it threw first, or a ValueError that names it; null unless it has failed.
+  /// What the law threw first, or a ValueError that names the law; null unless has_failed().
   std::exception_ptr error() const;
 
  private:
-  void ask(DeviceState state) noexcept;
+  void apply_law(DeviceState state) noexcept;
 
   HapticRenderer& renderer_;
   double peak_force_;  ///< [N]
@@ -47,7 +47,7 @@ class SessionTick {
 Recording recording_for(const PracticePage& page, const HapticRenderer& renderer, FeedbackMode mode,
                         const ForceLaw& law);
 
-/// Of the strokes of the page, by characters.
+/// Share of the page that is written; every character counts the same [1].
 double share_written(const PracticePage& page, int character, int stroke) noexcept;
 
 }  // namespace calligraphy

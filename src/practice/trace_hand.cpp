@@ -15,7 +15,7 @@ namespace {
 
 constexpr double min_traced_approach = 0.15;  // [s]
 constexpr double first_approach = 0.5;        // time to the first stroke [s]
-constexpr double max_rest = 3.0;              // in the air, beyond which nothing is waited for [s]
+constexpr double max_rest = 3.0;              // longer pauses in the air are shortened to this [s]
 constexpr double air_step = 0.004;            // between knots in the air [s]
 
 void require_valid(const PenTrace& trace) {
@@ -82,7 +82,7 @@ void TraceHand::write(const PenStroke& stroke, const BoxMap& map, const Placemen
   for (const TimedPoint& timed : stroke) {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     point << placement.to_page(map(timed.point)), -pressed_depth;
-    // Points at one time are where the pen went between two samples: the last of them is where it was.
+    // Points with the same time lie on the way from one sample to the next; the last of them is where the pen was.
     if (timed.time + shift <= knots_.back().time) {
       knots_.back().point = point;
     } else {

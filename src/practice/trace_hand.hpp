@@ -10,9 +10,9 @@
 namespace calligraphy {
 
 /// The intended position of a person's pen. On the paper it follows the trace at the person's own speed, pressed
-/// slightly below the surface; in the air it is raised and moves with minimum jerk, in the person's own time, or longer
-/// where that is too short to raise, move and lower a pen with mass. fit_box maps the bounding box of the writing onto
-/// that of the character. The hand has no visual feedback: it feels the guidance but does not adapt to it.
+/// slightly below the surface; in the air it is raised and moves with minimum jerk, taking as long as the person did,
+/// or longer if that is too short to raise, move and lower a pen with mass. fit_box maps the bounding box of the
+/// writing onto that of the character. The hand has no visual feedback: it feels the guidance but does not adapt to it.
 class TraceHand {
  public:
   /// `start`: position of the pen at time 0 [m, page].
@@ -33,7 +33,7 @@ class TraceHand {
   void move(const Eigen::Vector3d& to, double seconds);
   void write(const PenStroke& stroke, const BoxMap& map, const Placement& placement);
 
-  std::vector<Knot> knots_;  ///< by time
+  std::vector<Knot> knots_;  ///< in order of time
 };
 
 }  // namespace calligraphy

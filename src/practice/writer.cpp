@@ -17,9 +17,9 @@ namespace {
 constexpr double min_approach = 0.2;    // [s]
 constexpr double min_element = 0.12;    // time for a hook or a dot [s]
 constexpr double max_settling = 1.2;    // how long the writer looks for the end of a stroke or for a corner [s]
-constexpr double close_enough = 0.02;   // a corner or an end looks reached at this distance [em]
-constexpr double notice_time = 0.5;     // on the paper without a green trace until the writer notices [s]
-constexpr double wandering_time = 1.0;  // after which drift is forgotten [s]
+constexpr double close_enough = 0.02;   // distance at which a corner or an end looks reached [em]
+constexpr double notice_time = 0.5;     // time on the paper without a green trace until the writer notices [s]
+constexpr double drift_decay = 1.0;     // time constant with which drift is forgotten [s]
 constexpr int max_attempts = 10;
 
 Point normal_point(Random& random) {
@@ -109,7 +109,7 @@ Intention SimulatedWriter::update(const VisualFeedback& sight, double seconds) {
   return {before, (now_ - before) / seconds};
 }
 
-/// What is shown now will be known only after the delay of sight.
+/// What is shown now is perceived only after the visual delay.
 void SimulatedWriter::see(const VisualFeedback& sight) {
   const double duration = plan_[element_].duration;
   sights_.push_back({time_, sight, element_, plan_[element_].at(minimum_jerk(progress_ / duration)),
@@ -138,8 +138,8 @@ void SimulatedWriter::think(double seconds) {
     case Phase::settle: {
       shake(seconds);
       correct(seconds);
-      untaken_ = seen_.sight.writing || accepted() ? 0.0 : untaken_ + seconds;
-      if (untaken_ > notice_time + skill_.visual_delay) {
+      untraced_ = seen_.sight.writing || accepted() ? 0.0 : untraced_ + seconds;
+      if (untraced_ > notice_time + skill_.visual_delay) {
         begin(Phase::raise);
       } else if (phase_ == Phase::write) {
         follow_plan(seconds);
@@ -170,14 +170,14 @@ void SimulatedWriter::think(double seconds) {
   }
 }
 
-/// The display has no stroke left in its character, and goes on to the next one once it sees the pen leave the paper.
+/// Whether the character on display has no stroke left: the next one follows once the pen leaves the paper.
 bool SimulatedWriter::waiting_for_lift() const {
   const int shown = seen_.sight.character;
   return shown < static_cast<int>(page_.size()) &&
          seen_.sight.stroke >= page_[static_cast<std::size_t>(shown)].character.stroke_count();
 }
 
-/// The display has moved on to another stroke.
+/// Whether the display has moved on to another stroke.
 bool SimulatedWriter::accepted() const { return seen_.sight.character != character_ || seen_.sight.stroke != stroke_; }
 
 void SimulatedWriter::follow_plan(double seconds) {
@@ -188,13 +188,13 @@ void SimulatedWriter::follow_plan(double seconds) {
   if (progress_ < plan_[element_].duration) return;
   progress_ = plan_[element_].duration;
   if (error_.norm() > close_enough * em) {
-    begin(Phase::settle);  // look whether the corner or the end is reached, and go there
+    begin(Phase::settle);  // see whether the corner or the end is reached, and go there
   } else {
     leave_element();
   }
 }
 
-/// On to the next element, or off the paper after the last.
+/// Moves on to the next element, or off the paper after the last one.
 void SimulatedWriter::leave_element() {
   if (element_ + 1 == plan_.size()) {
     begin(Phase::raise);
@@ -216,7 +216,7 @@ void SimulatedWriter::correct(double seconds) {
 
 void SimulatedWriter::shake(double seconds) {
   const double em = page_[static_cast<std::size_t>(character_)].placement.em;
-  drift_ *= std::exp(-seconds / wandering_time);
+  drift_ *= std::exp(-seconds / drift_decay);
   drift_ += skill_.drift * em * std::sqrt(seconds) * normal_point(random_);
   tremor_ = Point::Zero();
   for (std::size_t i = 0; i < 3; ++i) {
@@ -232,14 +232,14 @@ void SimulatedWriter::begin(Phase phase) {
   from_ = now_;
 }
 
-/// Draws what the writer believes of the stroke that is due; each further attempt halves the misbelief.
+/// Draws what the writer believes about the stroke that is due; each further attempt halves the error.
 void SimulatedWriter::plan_attempt() {
   const PlacedCharacter& placed = page_[static_cast<std::size_t>(character_)];
   const double em = placed.placement.em;
   const double misbelief = std::pow(0.5, attempt_);
 
-  // A sequence of its own for each question, so that no answer depends on how many were asked before. The code point is
-  // in every key, because characters alone on their pages all have index 0.
+  // Each belief has its own random sequence, so none depends on how many were drawn before. The code point is in every
+  // key, because characters alone on their pages all have index 0.
   const int code = static_cast<int>(placed.character.code);
   Random of_character(seed_, {code, character_});
   const Point offset = skill_.offset * em * normal_point(of_character);
@@ -261,11 +261,11 @@ void SimulatedWriter::plan_attempt() {
   const bool backwards = attempt_ == 0 && !out_of_order && direction_draw < skill_.wrong_direction;
   plan_elements(out_of_order ? stroke_ + 1 + static_cast<int>(which * later) : stroke_, backwards);
 
-  sights_.clear();  // they compare with the last plan
+  sights_.clear();  // they refer to the last plan
   seen_.on_paper = false;
   element_ = 0;
   progress_ = 0.0;
-  untaken_ = 0.0;
+  untraced_ = 0.0;
   correction_ = drift_ = tremor_ = error_ = Point::Zero();
   lateral_ = 0.0;
 }
@@ -302,7 +302,7 @@ Eigen::Vector3d SimulatedWriter::target() const {
     case Phase::write:
     case Phase::settle: {
       const double share = minimum_jerk(progress_ / element.duration);
-      // The miss at the start is carried along; only sight can mend it.
+      // The error at the start persists until it is seen and corrected.
       point.head<2>() = belief_(element.at(share)) + aim_error_ + correction_ + drift_ + tremor_;
       point.z() = -pressed_depth;
       return point;

@@ -22,11 +22,11 @@ namespace calligraphy {
 struct LiveView {
   RecordedSample newest;                 ///< the latest tick; all zero before the first one
   WritingHint hint = WritingHint::none;  ///< why a pen on the paper is not guided in that tick (hint_text())
-  Point to_start = Point::Zero();        ///< from its pen tip to the start of the stroke that is due [m, page]
+  Point to_start = Point::Zero();        ///< from the pen tip to the start of the stroke that is due [m, page]
   ServoStatus servo;                     ///< state of the loop and its fault, if any
   std::vector<std::string> warnings;     ///< as LiveResult::warnings; known before the first tick
-  std::string advice;                    ///< what the person has to do with the device (HapticDevice::advice())
-  double progress = 0.0;                 ///< share of the page that is written, in [0, 1]
+  std::string advice;                    ///< what the user has to do about the device (HapticDevice::advice())
+  double progress = 0.0;                 ///< share of the page written so far, in [0, 1]
   bool started = false;  ///< the pen has been in front of the paper; until then no force is sent and nothing recorded
   double behind = 0.0;   ///< how far the pen is behind the paper, until `started` [m, page]
 };
@@ -34,11 +34,11 @@ struct LiveView {
 /// Options of a person writing on a device.
 struct LiveOptions {
   FeedbackMode mode = FeedbackMode::force;  ///< whether the device receives the renderer's force
-  RendererOptions renderer;                 ///< of the renderer; the servo loop runs at its rate
+  RendererOptions renderer;                 ///< options of the renderer; the servo loop runs at its rate
   ForceLaw law = {};                        ///< as SessionOptions::law
   /// Device axes to page axes; by default upright_page() of the page. On a desk: desk_page().
   std::optional<MotionMapping> mapping = std::nullopt;
-  ServoLoopOptions servo;                                       ///< of the servo loop
+  ServoLoopOptions servo;                                       ///< options of the servo loop
   double peak_force = std::numeric_limits<double>::infinity();  ///< upper bound, besides the device's own [N]
   double timeout = 600.0;                                       ///< the session ends after this time [s]
   /// Called on the calling thread, for the first time before the first tick; false ends the session.
@@ -47,11 +47,11 @@ struct LiveOptions {
 
 /// Result of write_with_device().
 struct LiveResult {
-  Recording recording;                ///< from the moment when the pen was in front of the paper
-  ServoStatistics statistics;         ///< of the servo loop, from its start
+  Recording recording;                ///< from the moment the pen was first in front of the paper
+  ServoStatistics statistics;         ///< statistics of the servo loop since its start
   std::uint64_t dropped = 0;          ///< ticks missing from the recording because the calling thread was too late
-  std::vector<std::string> warnings;  ///< as of ServoLoop::start()
-  std::exception_ptr error;           ///< what a law of the options threw, or that its force was not finite; ended it
+  std::vector<std::string> warnings;  ///< what ServoLoop::start() returned
+  std::exception_ptr error;           ///< what a law threw, or a ValueError for a non-finite force, ending the session
 };
 
 /// The capabilities with their forces limited to a peak [N], which may be infinite.

@@ -21,10 +21,10 @@ struct RecordedSample {
   double time = 0.0;                                       ///< sample time, since the device was opened [s]
   Eigen::Vector3d device_point = Eigen::Vector3d::Zero();  ///< haptic interface point, page frame [m]
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< virtual pen tip, page frame [m]
-  /// Applied to the pen on the page, page axes [N]; with a motion scale K_S the hand feels K_S times as much.
+  /// Force on the pen, page axes [N]; with a motion scale K_S the hand feels K_S times as much.
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   InteractionState state = InteractionState::separation;  ///< after this tick
-  TickEvent events = TickEvent::none;                     ///< what happened in it
+  TickEvent events = TickEvent::none;                     ///< what happened in this tick
   TickStatus status = TickStatus::ok;                     ///< whether its sample was usable
   int character = 0;                                      ///< index of the active character on the page
   int stroke = 0;                                         ///< index of the active stroke within the character
@@ -36,12 +36,12 @@ struct Recording {
   double rate = 1000.0;                 ///< samples per second [Hz]
   std::vector<RecordedSample> samples;  ///< one per tick, in order
   std::uint32_t page = 0;               ///< page_id() of the page that was written; 0: unknown
-  std::string law = {};                 ///< of the force, with its parameters: "linear: 600 N/m"; empty: unknown
+  std::string law = {};                 ///< name of the force law, with parameters: "linear: 600 N/m"; empty: unknown
 };
 
-/// Writes comma-separated values: the first line names columns and units, the second, a comment, gives the rate, the
-/// page and the law, with spaces for its control characters. Numbers are independent of the locale and in the shortest
-/// form that reads back exactly; events are the sum of TickEvent's bits.
+/// Writes comma-separated values. The first line names columns and units; the second, a comment, gives the rate, the
+/// page and the law, its control characters replaced by spaces. Numbers are independent of the locale and in the
+/// shortest form that reads back exactly; events are the sum of TickEvent's bits.
 void write_recording(std::ostream& out, const Recording& recording);
 
 /// Reads exactly what write_recording wrote. `name` is used in messages.
@@ -52,9 +52,9 @@ Recording read_recording(std::istream& in, std::string_view name);
 Recording read_recording(const std::filesystem::path& path);
 
 /// The pen-downs of a recording, in the coordinates of a character's square, whether or not the renderer accepted them
-/// as strokes: the samples from each contact to the lift, without rejected ones. A lift of at most 50 ms is a bounce,
-/// not an intended lift: voluntary motion ends at 10 Hz. Nor does a pen-down end where samples are lost for at most
-/// 100 ms and none shows a lift.
+/// as strokes: the samples from each contact to the lift, except rejected ones. A lift of at most 50 ms is a bounce,
+/// not an intended lift: voluntary motion ends at 10 Hz. A loss of samples for at most 100 ms does not end a pen-down
+/// either, unless a sample shows a lift.
 std::vector<PenPath> pen_paths(const Recording& recording, const Placement& placement);
 
 /// The device point of each sample in device axes, for a ReplayDevice with the same mapping. A bad sample has no

@@ -31,17 +31,17 @@ struct SessionOptions {
   FeedbackMode mode = FeedbackMode::force;  ///< whether the device receives the renderer's force
   Capabilities device;                      ///< the simulated device, such as device_profile("desktop")
   RendererOptions renderer;                 ///< its servo rate is that of the loop
-  /// The whole force on the device, in place of the renderer's, which still follows the pen: for what is no guidance. It
-  /// is asked as by a Servo, at the rate of the loop. None: the renderer's.
+  /// Computes the whole force on the device in place of the renderer, which still follows the pen: for forces other
+  /// than guidance. Called as by a Servo, at the rate of the loop. By default the force is the renderer's.
   ForceLaw law = {};
   /// Device axes to page axes; by default upright_page() of the page. On a desk: desk_page(). With a motion scale K_S
   /// the hand moves 1 / K_S times as far as the pen on the page, and feels K_S^2 times its stiffness:
-  /// RendererOptions::for_device(device, K_S) makes up for that.
+  /// RendererOptions::for_device(device, K_S) compensates for that.
   std::optional<MotionMapping> mapping = std::nullopt;
-  WriterSkill skill;               ///< of the simulated writer; its grip holds the device
-  std::uint64_t seed = 1;          ///< of the writer's beliefs and mistakes (SimulatedWriter)
+  WriterSkill skill;               ///< skill of the simulated writer, whose grip holds the device
+  std::uint64_t seed = 1;          ///< seed of the writer's beliefs and mistakes (SimulatedWriter)
   bool measure_ticks = false;      ///< measure the execution time of the renderer in every tick
-  double character_timeout = 120;  ///< virtual time after which a character is abandoned, per character [s]
+  double character_timeout = 120;  ///< the session ends after this virtual time per character [s]
   /// Called from time to time with the share of characters written. An exception that it throws ends the session.
   std::function<void(double)> progress = nullptr;
 };
@@ -52,21 +52,21 @@ using PenMotion = std::function<std::optional<Intention>(const HapticTick& tick,
 
 /// Runs the loop: device.read, renderer.update, device.write, `motion`, device.advance. The grip of the skill holds the
 /// device; it starts above the centre of the page.
-/// @throws ValueError when an option is out of its domain; whatever a law of the options throws, or a ValueError where its
-/// force is not finite, which ends the session
+/// @throws ValueError when an option is out of its domain, or when the force of a law is not finite, which ends the
+/// session, as does whatever a law throws
 Recording run_session(const PracticePage& page, const SessionOptions& options, const PenMotion& motion);
 
 /// Writes the page once. Deterministic per seed, except for measured times.
 /// @throws ValueError when an option is out of its domain
 Recording write_page(const PracticePage& page, const SessionOptions& options);
 
-/// A session in which a simulated hand follows a person's recorded pen, on a page of one character. Of the skill only
-/// the grip is used.
+/// A session in which a simulated hand follows a person's recorded pen, on a page of one character. Uses only the grip
+/// of the skill.
 /// @throws ValueError when an option is out of its domain, or the page has not exactly one character
 Recording follow_trace(const PracticePage& page, const PenTrace& trace, const SessionOptions& options);
 
-/// Runs the renderer on recorded samples, as fast as possible and with no hand in the loop: what it would have
-/// rendered. Of the options only `mode`, `renderer`, `mapping`, `law`, `measure_ticks` and `progress` are used.
+/// Records what the renderer would have rendered for recorded samples, as fast as possible and without a hand in the
+/// loop. Uses only the options `mode`, `renderer`, `mapping`, `law`, `measure_ticks` and `progress`.
 /// @throws ValueError when an option is out of its domain
 Recording replay_page(const PracticePage& page, ReplayDevice& device, const SessionOptions& options);
 

@@ -15,12 +15,12 @@
 
 namespace calligraphy {
 
-/// Skill of a simulated writer. Lengths in em are relative to the character's square. Spreads are standard deviations,
-/// drawn anew for each character, stroke or attempt.
+/// Skill of a simulated writer. Lengths in em are relative to the character's square. Spreads are standard deviations
+/// of values drawn anew for each character, stroke or attempt.
 struct WriterSkill {
   GripImpedance grip;            ///< impedance between the plan and the device
   double offset = 0.0;           ///< spread of the position of the believed character [em]
-  double bias = 0.0;             ///< length of an additional offset, its direction drawn for each character [em]
+  double bias = 0.0;             ///< length of an additional offset in a direction drawn for each character [em]
   double scale = 0.0;            ///< spread of the scale of the believed character [1]
   double tilt = 0.0;             ///< spread of the tilt of the believed character [rad]
   double shape = 0.0;            ///< spread of the believed position of each stroke within the character [em]
@@ -30,7 +30,7 @@ struct WriterSkill {
   double wrong_order = 0.0;      ///< share of strokes for which another one is begun instead [1]
   double wrong_direction = 0.0;  ///< share of strokes begun at their end [1]
   double speed = 0.8;            ///< mean speed along a stroke without perceived error [em/s]
-  double pause = 0.25;           ///< before the pen moves to a stroke [s]
+  double pause = 0.25;           ///< pause before the pen moves to a stroke [s]
   double visual_delay = 0.18;    ///< delay of visual perception [s]
   double correction = 2.0;       ///< share of the perceived error corrected per second [1/s]
   double caution = 0.025;        ///< perceived lateral error at which the speed is halved [em]
@@ -51,7 +51,7 @@ struct VisualFeedback {
 };
 
 /// What a display shows at a tick: ink grows from the pen as soon as it stands at the start of the stroke that is due,
-/// and goes when it turns out to write something else.
+/// and disappears if it turns out to write something else.
 VisualFeedback visual_feedback(const HapticTick& tick) noexcept;
 
 /// Moves a hand through the strokes of a page.
@@ -62,8 +62,8 @@ VisualFeedback visual_feedback(const HapticTick& tick) noexcept;
 ///
 /// Deterministic per seed: the beliefs and mistakes of an attempt depend only on the seed, the character (its code
 /// point and its index on the page), the stroke and the number of the attempt, so that runs in different modes can be
-/// compared in pairs. Any two characters are drawn independently, also with the same seed and also alone on their
-/// pages; the same character at the same index with the same seed is the same draw.
+/// compared in pairs. Any two characters are drawn independently, even with the same seed and when alone on their
+/// pages; the same character at the same index with the same seed gives the same draw.
 class SimulatedWriter {
  public:
   /// A writer before the first stroke of the page.
@@ -73,10 +73,10 @@ class SimulatedWriter {
   /// Sees the display, advances time by `seconds` and returns the intended motion of the pen in that time, on the page.
   Intention update(const VisualFeedback& sight, double seconds);
 
-  /// All characters are written, or the writer gave up after ten failures of the same stroke, and the pen is off the
-  /// paper.
+  /// Whether all characters are written, or the writer has given up after ten failures at the same stroke, and the pen
+  /// is off the paper.
   bool done() const noexcept { return phase_ == Phase::done; }
-  /// Index of the stroke that the present attempt means to write; out of order, not the one that is due.
+  /// Index of the stroke that the current attempt intends to write; when out of order, not the one that is due.
   int intended_stroke() const noexcept { return intended_; }
 
  private:
@@ -97,7 +97,7 @@ class SimulatedWriter {
     double time;
     VisualFeedback sight;
     std::size_t element;
-    Point planned;  ///< point of the template at the progress of that moment
+    Point planned;  ///< point of the template that was planned then
     bool on_paper;  ///< a stroke was being written
   };
 
@@ -117,12 +117,12 @@ class SimulatedWriter {
   std::vector<PlacedCharacter> page_;
   WriterSkill skill_;
   std::uint64_t seed_;
-  Random random_{0};  ///< draws of the attempt
+  Random random_{0};  ///< draws for the attempt
 
   Phase phase_ = Phase::pause;
   double time_ = 0.0;        ///< [s]
   double phase_time_ = 0.0;  ///< since the phase began [s]
-  int character_ = 0;        ///< the next to be written, as far as the writer has seen
+  int character_ = 0;        ///< next to be written, as far as the writer has seen
   int stroke_ = 0;
   int attempt_ = 0;
 
@@ -136,9 +136,9 @@ class SimulatedWriter {
   Point drift_ = Point::Zero();
   Point tremor_ = Point::Zero();
   std::array<double, 6> tremor_phases_ = {};
-  double untaken_ = 0.0;  ///< time without a green trace while writing [s]
+  double untraced_ = 0.0;  ///< time without a green trace while writing [s]
 
-  std::deque<Seen> sights_;      ///< from oldest to newest
+  std::deque<Seen> sights_;      ///< oldest first
   Seen seen_ = {};               ///< the newest one older than the visual delay
   double lateral_ = 0.0;         ///< perceived distance from the template [m]
   Point error_ = Point::Zero();  ///< perceived vector from the pen to the template [m]
