@@ -67,7 +67,7 @@ void require_index(const char* name, std::int32_t index, std::size_t count) {
                                                ", must be an index below " + std::to_string(count));
 }
 
-void throw_no_value(const char* name, std::int32_t value, int last) {
+void throw_out_of_range(const char* name, std::int32_t value, int last) {
   throw Refusal(CALLIGRAPHY_INVALID_VALUE,
                 std::string(name) + " = " + std::to_string(value) + ", must be 0 to " + std::to_string(last));
 }

@@ -1,4 +1,4 @@
-// How every function of the C interface reports what went wrong.
+// How functions of the C interface report errors.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace calligraphy::c {
 
-/// What a function refuses during set-up: its status, and the text of the error.
+/// Error of a function during set-up, with its status.
 class Refusal : public Error {
  public:
   Refusal(calligraphy_status status, const std::string& text) : Error(text), status_(status) {}
@@ -30,7 +30,7 @@ class Refusal : public Error {
 /// The status of the exception that is being handled, and its text as the last error.
 calligraphy_status refuse_exception() noexcept;
 
-/// Calls a function that may throw.
+/// Calls a function that may throw. Returns its status.
 template <class Function>
 calligraphy_status guarded(Function&& function) noexcept {
   try {
@@ -41,10 +41,10 @@ calligraphy_status guarded(Function&& function) noexcept {
   }
 }
 
-/// Refuses a handle that is none of this kind. Does not allocate.
+/// Refuses a handle that is not of this kind. Does not allocate.
 calligraphy_status refuse_handle(Kind kind, const void* handle) noexcept;
 
-/// Throws what refuse() has just refused. @throws Refusal with this status and the last error
+/// @throws Refusal with this status and the last error
 [[noreturn]] void throw_refused(calligraphy_status status);
 /// @throws Refusal
 [[noreturn]] void throw_null(const char* name);
@@ -56,7 +56,7 @@ Object& object(const void* handle) {
   throw_refused(refuse_handle(kind_of<Object>, handle));
 }
 
-/// The object of a handle, to be kept. @throws Refusal if there is none
+/// Shared ownership of the object of a handle. @throws Refusal if there is none
 template <class Object>
 std::shared_ptr<Object> shared_object(const void* handle) {
   const std::shared_ptr<void>* const found = find_handle(kind_of<Object>, handle);
@@ -77,7 +77,7 @@ void hand_out(Handle** handle, std::shared_ptr<Object> object) {
   *handle = static_cast<Handle*>(add_handle(kind_of<Object>, std::move(object)));
 }
 
-/// An index in [0, count). @throws Refusal naming it
+/// Checks that an index is in [0, count). @throws Refusal naming it
 void require_index(const char* name, std::int32_t index, std::size_t count);
 
 /// The item with this index. @throws Refusal naming the index
@@ -88,12 +88,12 @@ const Item& item(const char* name, const std::vector<Item>& items, std::int32_t 
 }
 
 /// @throws Refusal naming the value
-[[noreturn]] void throw_no_value(const char* name, std::int32_t value, int last);
+[[noreturn]] void throw_out_of_range(const char* name, std::int32_t value, int last);
 
 /// The value of an enumeration, 0 to `last`. @throws Refusal naming it
 template <class Enumeration>
 Enumeration enumeration(const char* name, std::int32_t value, Enumeration last) {
-  if (value < 0 || value > static_cast<int>(last)) throw_no_value(name, value, static_cast<int>(last));
+  if (value < 0 || value > static_cast<int>(last)) throw_out_of_range(name, value, static_cast<int>(last));
   return static_cast<Enumeration>(value);
 }
 

@@ -76,7 +76,7 @@ void each_option(C& c, Options& o, const Exchange& exchange) {
   exchange(c.energy_max_gap, o.energy.max_gap);
 }
 
-/// By calligraphy_guidance_law, before CALLIGRAPHY_GUIDANCE_OWN.
+/// The built-in laws, in the order of calligraphy_guidance_law.
 constexpr GuidanceFactory::Make* guidance_laws[] = {linear_guidance, saturating_guidance, printed_guidance};
 
 struct FromC {
@@ -149,7 +149,7 @@ Capabilities capabilities_of(const calligraphy_capabilities* given) {
   result.name.assign(from.name, strnlen(from.name, sizeof from.name));
   result.model = result.name;
   result.simulated = from.simulated != 0;
-  // Zero, which says nothing of the force in C++, is what a program forgot to set.
+  // Zero, which means unknown in C++, is what a program has forgotten to set.
   require(from.peak_force > 0.0, "peak_force", from.peak_force, "N", "above 0, or infinite");
   result.workspace = {from.workspace[0], from.workspace[1], from.workspace[2]};
   result.peak_force = from.peak_force;

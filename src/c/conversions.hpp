@@ -1,4 +1,4 @@
-// Between the structs of the C interface and those of C++.
+// Conversions between the structs of the C interface and those of C++.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@ void to_array(const Vector& from, double (&to)[size]) noexcept {
   for (std::size_t i = 0; i < size; ++i) to[i] = from[static_cast<Eigen::Index>(i)];
 }
 
-/// Where a struct may leave a number at zero for the default. @throws ValueError if it is below zero or not finite
+/// Sets an option unless zero is given, for the default. @throws ValueError if it is below zero or not finite
 inline void set_if_given(double& option, double given, const char* name, const char* unit) {
   require_not_negative(name, given, unit);
   if (given > 0.0) option = given;
@@ -40,15 +40,15 @@ inline Eigen::Vector3d vector_of(const double* from, const char* name, const cha
 MotionMapping mapping_of(const calligraphy_mapping* from);
 calligraphy_mapping to_c(const MotionMapping& from) noexcept;
 
-/// Likewise.
+/// @throws Refusal as mapping_of()
 Capabilities capabilities_of(const calligraphy_capabilities* from);
 calligraphy_capabilities to_c(const Capabilities& from) noexcept;
 
-/// Likewise; also if a value of an enumeration is none.
+/// @throws Refusal as mapping_of(), and if an enumeration has no such value
 RendererOptions options_of(const calligraphy_renderer_options* from);
 calligraphy_renderer_options to_c(const RendererOptions& from) noexcept;
 
-/// The StrokeTolerances or JudgeTolerances of a calligraphy_tolerance. @throws Refusal if the value is none
+/// The StrokeTolerances or JudgeTolerances of a calligraphy_tolerance. @throws Refusal if there is no such value
 template <class Tolerances>
 Tolerances tolerances_of(std::int32_t tolerance) {
   switch (enumeration("tolerance", tolerance, CALLIGRAPHY_TOLERANCE_STRICT)) {
@@ -61,7 +61,7 @@ Tolerances tolerances_of(std::int32_t tolerance) {
   }
 }
 
-/// A sample whose size check_size() has accepted. What is not known is NaN. A status that is none counts as a fault.
+/// Converts a sample whose size check_size() has accepted. Unknown values are NaN; an invalid status counts as a fault.
 DeviceState state_of(const calligraphy_device_state* from) noexcept;
 calligraphy_device_state to_c(const DeviceState& from) noexcept;
 

@@ -18,7 +18,7 @@ GripImpedance grip_of(const calligraphy_grip* given) {
   return {grip.mass, grip.damping, grip.stiffness};
 }
 
-/// In the coordinates of the paper, which are those of the page divided by the scale.
+/// Options in paper coordinates, which are those of the page divided by the scale.
 PointerOptions pointer_options(const calligraphy_pointer_options* given, const MotionMapping& mapping) {
   PointerOptions result;
   if (given) {
@@ -44,7 +44,7 @@ constexpr const char* kind_name<PointerDevice> = "pointer";
 template <>
 constexpr const char* kind_name<HostDevice> = "host";
 
-/// The device of this kind. Null, with the error refused, if there is none. Does not allocate.
+/// The device if it is of this kind; otherwise null, with the last error set. Does not allocate.
 template <class Device>
 Device* find_device(const calligraphy_device* handle) noexcept {
   const auto* const found = find<DeviceObject>(handle);
@@ -57,7 +57,7 @@ Device* find_device(const calligraphy_device* handle) noexcept {
   return device;
 }
 
-/// The same for set-up. @throws Refusal
+/// As find_device(), for set-up. @throws Refusal
 template <class Device>
 Device& device_of(const calligraphy_device* handle) {
   Device* const found = find_device<Device>(handle);
@@ -65,8 +65,8 @@ Device& device_of(const calligraphy_device* handle) {
   return *found;
 }
 
-/// A device that reads and writes by itself, and is not the program's. Likewise.
-HapticDevice* find_own_device(const calligraphy_device* handle) noexcept {
+/// As find_device(), for any device that the library itself reads and writes.
+HapticDevice* find_readable_device(const calligraphy_device* handle) noexcept {
   const auto* const found = find<DeviceObject>(handle);
   if (!found) {
     refuse_handle(Kind::device, handle);
@@ -165,7 +165,7 @@ calligraphy_status calligraphy_device_advance(calligraphy_device* device, double
 }
 
 calligraphy_status calligraphy_device_read(calligraphy_device* device, calligraphy_device_state* state) {
-  HapticDevice* const found = find_own_device(device);
+  HapticDevice* const found = find_readable_device(device);
   if (!found) return CALLIGRAPHY_INVALID_HANDLE;
   if (const calligraphy_status status = check_size(state, "calligraphy_device_state")) return status;
   put_struct(state, to_c(found->read()));
@@ -173,7 +173,7 @@ calligraphy_status calligraphy_device_read(calligraphy_device* device, calligrap
 }
 
 calligraphy_status calligraphy_device_write(calligraphy_device* device, const double* force) {
-  HapticDevice* const found = find_own_device(device);
+  HapticDevice* const found = find_readable_device(device);
   if (!found) return CALLIGRAPHY_INVALID_HANDLE;
   if (!force) return refuse(CALLIGRAPHY_INVALID_VALUE, "force is null");
   const Eigen::Vector3d commanded(force[0], force[1], force[2]);

@@ -64,7 +64,7 @@ class OwnGuidance final : public GuidanceLaw {
     terms.size = sizeof terms;
     to_array(guidance_damper(input, input.share), terms.damper);
     if (functions_.force(functions_.user, &in_c, &terms) != 0) {
-      return {Point::Constant(std::numeric_limits<double>::quiet_NaN())};  // unlike an exception, it takes no memory
+      return {Point::Constant(std::numeric_limits<double>::quiet_NaN())};  // unlike an exception, NaN does not allocate
     }
     return {{terms.spring[0], terms.spring[1]}, {terms.damper[0], terms.damper[1]}, terms.normal};
   }

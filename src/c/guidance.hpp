@@ -1,4 +1,4 @@
-// Guidance laws whose functions are the program's.
+// Guidance laws whose functions the program provides.
 #pragma once
 
 #include <calligraphy/c/calligraphy.h>
@@ -6,8 +6,7 @@
 
 namespace calligraphy::c {
 
-/// Makes laws of these functions, which are copied. @throws Refusal if they or their `force` are null, or their size is
-/// wrong
+/// Makes laws from copies of these functions. @throws Refusal if they or their `force` are null, or their size is wrong
 GuidanceFactory guidance_of(const calligraphy_guidance_functions* functions);
 
 }  // namespace calligraphy::c

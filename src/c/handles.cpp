@@ -11,7 +11,7 @@
 namespace calligraphy::c {
 namespace {
 
-// Bits of a handle, from the lowest: kind, index of its slot, and how often that was used before.
+// Bits of a handle, from the lowest: kind, index of its slot, and how often the slot has been used.
 constexpr int kind_bits = 4, index_bits = 16;
 constexpr std::uintptr_t kind_mask = (std::uintptr_t{1} << kind_bits) - 1;
 constexpr std::uintptr_t index_mask = (std::uintptr_t{1} << index_bits) - 1;
@@ -19,19 +19,19 @@ constexpr std::uintptr_t one_use = std::uintptr_t{1} << (kind_bits + index_bits)
 
 struct Slot {
   std::atomic<std::uintptr_t> handle = 0;  ///< 0: free
-  std::uintptr_t uses = 0;                 ///< in the upper bits
+  std::uintptr_t uses = 0;                 ///< how often, in the upper bits of a handle
   std::shared_ptr<void> object;
 };
 
 constexpr std::size_t slots_per_block = 256;
 constexpr std::size_t block_count = (index_mask + 1) / slots_per_block;
 
-/// Grows by blocks and never moves or frees one, so that a reader needs no lock.
+/// Grows by blocks, which are never moved or freed, so readers need no lock.
 constinit std::array<std::atomic<Slot*>, block_count> blocks = {};
 
 /// Which slots are free.
 struct Slots {
-  std::mutex mutex;  ///< also for changes of slots
+  std::mutex mutex;  ///< also guards changes of slots
   std::size_t unused = 0;
   std::deque<std::size_t> freed;  ///< first in, first out: a freed handle stays unknown for as long as possible
 };
@@ -57,7 +57,7 @@ const char* to_string(Kind kind) noexcept {
 }
 
 void* add_handle(Kind kind, std::shared_ptr<void> object) {
-  constexpr std::size_t kept = 64;  // freed slots that are left alone while there are unused ones
+  constexpr std::size_t kept = 64;  // freed slots that are not reused while there are unused ones
   Slots& all = slots();
   const std::lock_guard lock(all.mutex);
   std::size_t index;

@@ -1,5 +1,5 @@
-// The objects behind the handles of the C interface. A handle is a number in the shape of a pointer, never followed: so
-// one that was freed, or never was one, is refused.
+// The objects behind the handles of the C interface. A handle is a number in the form of a pointer that is never
+// dereferenced, so one that is freed or invalid can be refused.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace calligraphy::c {
 
-/// What a handle is of; in its lowest bits, none of which is zero for all of them.
+/// Kind of an object: the lowest bits of its handle, never all zero.
 enum class Kind : std::uintptr_t { set = 1, page, device, renderer, servo, match, recording, score, stroke };
 
 /// "set", "page" ...
@@ -17,15 +17,15 @@ const char* to_string(Kind kind) noexcept;
 template <class Object>
 inline constexpr Kind kind_of = Kind{};
 
-/// Keeps an object until it is removed. Thread-safe. @throws std::bad_alloc if there are too many
+/// Keeps an object until its handle is removed. Thread-safe. @throws std::bad_alloc if there are too many
 void* add_handle(Kind kind, std::shared_ptr<void> object);
-/// Gives the object back, or null if there is none with this handle. Thread-safe.
+/// Returns the object that the handle had, or null if there is no such handle. Thread-safe.
 std::shared_ptr<void> remove_handle(const void* handle) noexcept;
-/// The object of a handle, or null if there is none of this kind. Wait-free; the caller sees to it that the handle is
-/// not removed meanwhile.
+/// The object of a handle, or null if there is none of this kind. Wait-free; the caller must ensure that the handle
+/// is not removed meanwhile.
 const std::shared_ptr<void>* find_handle(Kind kind, const void* handle) noexcept;
 
-/// The kind of a handle; none if there is none.
+/// The kind of a handle; Kind{} if there is no such handle.
 Kind kind_of_handle(const void* handle) noexcept;
 
 /// The object of a handle, or null.

@@ -1,4 +1,4 @@
-// A device of a program that supplies samples by calls, and sends the forces of ticks.
+// A device implemented by the program, which supplies its samples and sends it the ticks' forces.
 #pragma once
 
 #include <utility>
@@ -14,7 +14,7 @@ class HostDevice final : public HapticDevice {
   }
 
   const Capabilities& capabilities() const noexcept override { return capabilities_; }
-  /// The sample that was supplied last: fresh once, then stale; what says that there is no sample stays.
+  /// The last sample supplied: fresh once, then stale. A status that says there is none persists.
   DeviceState read() noexcept override {
     const DeviceState sample = sample_;
     const bool is_fresh = sample.status == DeviceStatus::ok || sample.status == DeviceStatus::warm_motors;

@@ -10,7 +10,7 @@ namespace {
 ServoOptions virtual_time(double rate) {
   ServoOptions options;
   options.rate = rate;
-  options.timeout = std::max(options.timeout, 2.0 / rate);  // the least that a servo takes
+  options.timeout = std::max(options.timeout, 2.0 / rate);  // the minimum of a servo
   options.work_clock = []() noexcept { return 0.0; };       // the program's time stands still during a step
   return options;
 }
@@ -25,7 +25,7 @@ ForceLaw law_of(ServoObject& servo) {
   return law;
 }
 
-/// What a tick says of a step in which the renderer was not updated.
+/// Sets the status and events of a tick in which the renderer was not updated.
 void describe_gap(const ServoStatus& status, calligraphy_tick* tick) noexcept {
   switch (status.device) {
     case DeviceStatus::ok:

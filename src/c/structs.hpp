@@ -11,18 +11,18 @@
 
 namespace calligraphy::c {
 
-/// Size of a struct in the first version of this interface that had it, which every later one takes. When a struct
+/// Size of a struct in the first version of this interface that had it, which every later one accepts. When a struct
 /// grows, its first size is stated here: `template <> inline constexpr std::size_t first_size<calligraphy_grip> = 32;`
 template <class Struct>
 inline constexpr std::size_t first_size = sizeof(Struct);
 
-/// No struct of any version is larger: a size beyond it was never set.
+/// No struct of any version is larger: a size above this was never set.
 inline constexpr std::size_t max_size = 4096;
 
 /// Refuses a struct's size. Does not allocate.
 calligraphy_status refuse_size(const char* name, std::size_t size, std::size_t least) noexcept;
 
-/// Whether a struct of this size can be read or written; in the words of the error. Does not allocate.
+/// Checks that a struct of this size can be read or written. Does not allocate.
 template <class Struct>
 calligraphy_status check_size(const Struct* to, const char* name) noexcept {
   if (!to) return refuse(CALLIGRAPHY_INVALID_VALUE, "%s is null", name);
@@ -30,7 +30,7 @@ calligraphy_status check_size(const Struct* to, const char* name) noexcept {
   return is_size ? CALLIGRAPHY_OK : refuse_size(name, to->size, first_size<Struct>);
 }
 
-/// Copies a struct of any size: as much as it has, and zero beyond. Returns the copy.
+/// Copies a struct of any size, with zeros for the members that it lacks. Returns the copy.
 template <class Struct>
 Struct* copy_struct(const Struct* from, Struct* to) noexcept {
   static_assert(std::is_trivially_copyable_v<Struct>);
@@ -39,7 +39,7 @@ Struct* copy_struct(const Struct* from, Struct* to) noexcept {
   return to;
 }
 
-/// Whether all that a caller's struct says can be taken. Does not allocate.
+/// Checks that a caller's struct sets only members that this version has. Does not allocate.
 template <class Struct>
 calligraphy_status check_given(const Struct* from, const char* name) noexcept {
   if (const calligraphy_status status = check_size(from, name)) return status;
@@ -51,8 +51,8 @@ calligraphy_status check_given(const Struct* from, const char* name) noexcept {
                            calligraphy_version());
 }
 
-/// What a caller's struct says, whatever its size. What is beyond the caller's size is zero.
-/// @throws Refusal naming the struct if it is null or too small, or says what this version does not know
+/// Reads a caller's struct of any size, with zeros for the members that it lacks.
+/// @throws Refusal naming the struct if it is null or too small, or sets members that this version does not have
 template <class Struct>
 Struct read_struct(const Struct* from, const char* name) {
   if (const calligraphy_status status = check_given(from, name)) throw_refused(status);
@@ -60,14 +60,14 @@ Struct read_struct(const Struct* from, const char* name) {
   return *copy_struct(from, &result);
 }
 
-/// Clears what a larger struct has beyond this version's.
+/// Clears the members that a larger struct has beyond this version's.
 template <class Struct>
 void clear_rest(Struct* to) noexcept {
   if (to->size == sizeof(Struct)) return;
   std::memset(reinterpret_cast<char*>(to) + sizeof(Struct), 0, to->size - sizeof(Struct));
 }
 
-/// Writes a result to a struct that check_size() has accepted: as much as it takes, and zero beyond. Its size stays.
+/// Writes a result to a struct that check_size() has accepted: as much as fits, and zero beyond. Its size is unchanged.
 template <class Struct>
 void put_struct(Struct* to, Struct result) noexcept {
   result.size = to->size;
@@ -79,7 +79,7 @@ void put_struct(Struct* to, Struct result) noexcept {
   }
 }
 
-/// The same for set-up. @throws Refusal naming the struct if it is null or too small
+/// As put_struct(), for set-up. @throws Refusal naming the struct if it is null or too small
 template <class Struct>
 void write_struct(Struct* to, const char* name, const Struct& result) {
   if (const calligraphy_status status = check_size(to, name)) throw_refused(status);

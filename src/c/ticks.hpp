@@ -1,4 +1,4 @@
-// A tick as the C interface shows it.
+// Ticks of the C interface.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 
 namespace calligraphy::c {
 
-/// Whether a tick can be written.
+/// Checks that a tick can be written.
 inline calligraphy_status check_tick(const calligraphy_tick* tick) noexcept {
   return check_size(tick, "calligraphy_tick");
 }
 
-/// The status of a failure. The tick, unless it is null, then has neither a force nor events, for callers who do not
-/// look at the status.
+/// Clears the force and the events of a tick, unless it is null, for callers who do not look at the status. Returns
+/// the status.
 inline calligraphy_status without_force(calligraphy_tick* tick, calligraphy_status failure) noexcept {
   if (!tick) return failure;
   std::fill_n(tick->force, 3, 0.0);
@@ -24,7 +24,7 @@ inline calligraphy_status without_force(calligraphy_tick* tick, calligraphy_stat
   return failure;
 }
 
-/// Fills all members of a tick but its size.
+/// Fills all members of a tick except its size.
 inline void fill_tick(const RendererObject& renderer, calligraphy_tick* to) noexcept {
   const HapticTick& from = renderer.renderer.last();
   const Beginning& next = renderer.next(from);
@@ -62,7 +62,7 @@ inline void fill_tick(const RendererObject& renderer, calligraphy_tick* to) noex
 
 /// Writes the renderer's last tick to a struct that check_size() has accepted. Does not allocate.
 inline void write_tick(const RendererObject& renderer, calligraphy_tick* to) noexcept {
-  if (to->size >= sizeof(calligraphy_tick)) {  // in place: half of what the call costs would be the copy
+  if (to->size >= sizeof(calligraphy_tick)) {  // in place: a copy would be half the cost of the call
     fill_tick(renderer, to);
     clear_rest(to);
   } else {

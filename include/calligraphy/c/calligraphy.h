@@ -4,8 +4,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define CALLIGRAPHY_VERSION_MAJOR 0  ///< of this header; calligraphy_version() is that of the library
-#define CALLIGRAPHY_VERSION_MINOR 2  ///< changes whenever a program must be compiled anew
+#define CALLIGRAPHY_VERSION_MAJOR 0  ///< of this header; calligraphy_version() returns that of the library
+#define CALLIGRAPHY_VERSION_MINOR 2  ///< changes whenever programs must be recompiled
 #define CALLIGRAPHY_VERSION_PATCH 0  ///< changes otherwise
 
 #if defined(_WIN32) && defined(CALLIGRAPHY_C_BUILD)
@@ -22,38 +22,38 @@ extern "C" {
 
 // Conventions.
 //
-// Units are those of C++: metres, newtons, seconds; positions on the page have their origin at its lower left corner,
-// x right, y up, z out of the paper.
+// Units are the same as in C++: metres, newtons, seconds. The origin of the page is its lower left corner; x points
+// right, y up and z out of the paper.
 //
-// Handles are opaque. Whoever creates one frees it with calligraphy_free(), in any order: what a handle was made from
-// may be freed before it, though not while another thread is in a call with it. A handle that was freed, is null or is
-// of another kind is refused, not followed. One handle is used by one thread at a time, except where a comment says
-// otherwise; who uses a servo also uses its device and its renderer.
+// Handles are opaque. Their creator frees them with calligraphy_free(), in any order: an object may be freed before
+// others that were made from it, though not while another thread is in a call that uses it. A handle that is null, was
+// freed or is of another kind is refused, never dereferenced. Use a handle in one thread at a time unless a comment
+// says otherwise; using a servo also uses its device and its renderer.
 //
-// Every struct begins with its size, which the caller sets: `calligraphy_tick tick = {sizeof tick};`. A size that is
-// not that of the variable lets the library write beyond it. So a struct can grow at its end: a newer library takes
-// that of an older program, and an older library that of a newer program, unless that sets what the library does not
-// know. All members of results may be left at zero, and of what is given those for which a comment says what zero
+// Every struct begins with its size, which the caller sets: `calligraphy_tick tick = {sizeof tick};`. With a wrong size
+// the library may write beyond the variable. The size allows structs to grow at their end: a newer library accepts
+// those of an older program, and an older library those of a newer program, unless that sets members that the library
+// does not know. All members of results may be left at zero; members of an input may be if a comment says what zero
 // means.
 //
-// Functions return a status. On failure they do nothing else, and calligraphy_last_error() says what was wrong with
-// which value. No function throws or ends the program, except that reading a set from a file ends it if someone has
-// shortened the file since it was opened. Functions of the program are called only where it sets them as its guidance
-// law. Where an optional pointer is null, nothing is read from it or written to it.
+// Functions return a status. On failure they do nothing else, and calligraphy_last_error() says which value was wrong
+// and why. No function throws or ends the program, except that reading a set from a file ends it if the file has been
+// truncated since it was opened. The library calls functions of the program only if they are set as its guidance law.
+// It neither reads nor writes through an optional pointer that is null.
 //
-// Where the library was loaded at run time, by dlopen(), the first step or error in a thread takes memory for that
+// If the library was loaded at run time, by dlopen(), the first step or error in a thread allocates memory for that
 // thread, unless calligraphy_last_error() was called in it before.
 
-/// Whether a function did what it says.
+/// Result of a function call.
 typedef enum calligraphy_status {
-  CALLIGRAPHY_OK = 0,              ///< it did
-  CALLIGRAPHY_INVALID_HANDLE = 1,  ///< a handle that is null, was freed, or is of another kind of object or device
-  CALLIGRAPHY_INVALID_VALUE = 2,   ///< a value out of its domain, a null pointer or the wrong size of a struct
+  CALLIGRAPHY_OK = 0,              ///< success
+  CALLIGRAPHY_INVALID_HANDLE = 1,  ///< a handle that is null, freed, or of another kind of object or device
+  CALLIGRAPHY_INVALID_VALUE = 2,   ///< a value out of its domain, a null pointer or a struct of the wrong size
   CALLIGRAPHY_NOT_FOUND = 3,       ///< no such character in the set
   CALLIGRAPHY_TOO_SMALL = 4,       ///< an array is too small for the result
   CALLIGRAPHY_FILE_ERROR = 5,      ///< a file cannot be opened or read
   CALLIGRAPHY_FORMAT_ERROR = 6,    ///< malformed input
-  CALLIGRAPHY_OUT_OF_MEMORY = 7,   ///< memory, or all of 65,536 handles, are in use
+  CALLIGRAPHY_OUT_OF_MEMORY = 7,   ///< no memory is left, or all 65,536 handles are in use
   CALLIGRAPHY_INTERNAL_ERROR = 8   ///< a defect of this library
 } calligraphy_status;
 
@@ -72,7 +72,7 @@ CALLIGRAPHY_API calligraphy_status calligraphy_free(void* handle);
 /// A set of characters. Any number of threads may use one.
 typedef struct calligraphy_set calligraphy_set;
 
-/// The characters that were drawn for this library.
+/// The characters drawn for this library.
 CALLIGRAPHY_API calligraphy_status calligraphy_set_built_in(calligraphy_set** set);
 
 /// Opens a set file, or a file in the text format (docs/set-file.md, docs/character-format.md); `path` is in UTF-8.
@@ -82,8 +82,8 @@ CALLIGRAPHY_API calligraphy_status calligraphy_set_open(const char* path, callig
 CALLIGRAPHY_API calligraphy_status calligraphy_set_from_memory(const void* bytes, size_t size, const char* name,
                                                                calligraphy_set** set);
 
-/// The first character of the set at or after the code point `from`. CALLIGRAPHY_NOT_FOUND past the last one: so all of
-/// them are listed, each from the one before plus 1.
+/// The first character of the set at or after the code point `from`. CALLIGRAPHY_NOT_FOUND past the last one. To list
+/// all of them, continue from each one plus 1.
 CALLIGRAPHY_API calligraphy_status calligraphy_set_next(const calligraphy_set* set, uint32_t from, uint32_t* code);
 
 /// Number of strokes of a character. CALLIGRAPHY_NOT_FOUND if the set does not have it; CALLIGRAPHY_FORMAT_ERROR if it
@@ -96,31 +96,31 @@ CALLIGRAPHY_API calligraphy_status calligraphy_set_stroke_count(const calligraph
 /// Placed characters, in the order in which they are to be written. Any number of threads may use one.
 typedef struct calligraphy_page calligraphy_page;
 
-/// Size of a page, and of the squares on it. What is zero takes the default.
+/// Size of a page, and of the squares on it. Members that are zero take the default.
 typedef struct calligraphy_layout {
   uint32_t size;  ///< sizeof(calligraphy_layout)
-  double width;   ///< of the page; 0.16 by default [m]
-  double height;  ///< of the page; 0.12 by default [m]
+  double width;   ///< width of the page; 0.16 by default [m]
+  double height;  ///< height of the page; 0.12 by default [m]
   double em;      ///< edge length of a character's square; 0.04 by default [m]
   double gap;     ///< between the squares, and between them and the edge of the page; 0.2 em by default [m]
 } calligraphy_layout;
 
-/// Lays the characters of a text in UTF-8 out from left to right and top to bottom: only characters of the set, so no
-/// spaces. Writes how many fit, from the first on, to `placed`; a null `placed` demands that all do. Null `layout`: the
+/// Lays out the characters of a text in UTF-8 from left to right and top to bottom; all must be in the set, so no
+/// spaces. Writes how many fit, from the first on, to `placed`; if that is null, all must fit. Null `layout`: the
 /// default.
 CALLIGRAPHY_API calligraphy_status calligraphy_page_lay_out(const calligraphy_set* set, const char* text,
                                                             const calligraphy_layout* layout, int32_t* placed,
                                                             calligraphy_page** page);
 
-/// What a page is as a whole.
+/// Size of a page, and its number of characters.
 typedef struct calligraphy_page_info {
   uint32_t size;            ///< sizeof(calligraphy_page_info)
   int32_t character_count;  ///< number of characters
-  double width;             ///< of the paper [m]
-  double height;            ///< of the paper [m]
+  double width;             ///< width of the paper [m]
+  double height;            ///< height of the paper [m]
 } calligraphy_page_info;
 
-/// Its size and number of characters.
+/// Reads the size of a page and its number of characters.
 CALLIGRAPHY_API calligraphy_status calligraphy_page_read_info(const calligraphy_page* page,
                                                               calligraphy_page_info* info);
 
@@ -129,7 +129,7 @@ typedef struct calligraphy_placed_character {
   uint32_t size;         ///< sizeof(calligraphy_placed_character)
   uint32_t code;         ///< Unicode code point
   int32_t stroke_count;  ///< number of strokes
-  int32_t has_ink;       ///< whether its strokes have an outline of their own; otherwise that of a typical brush
+  int32_t has_ink;       ///< whether its strokes have their own outlines; otherwise those of a typical brush
   double origin[2];      ///< lower left corner of its square [m, page]
   double em;             ///< edge of its square [m]
 } calligraphy_placed_character;
@@ -141,27 +141,27 @@ CALLIGRAPHY_API calligraphy_status calligraphy_page_character(const calligraphy_
 /// A stroke of a page.
 typedef struct calligraphy_stroke {
   uint32_t size;          ///< sizeof(calligraphy_stroke)
-  int32_t id;             ///< of its typical stroke, 1 to 39
+  int32_t id;             ///< id of its typical stroke, 1 to 39
   int32_t element_count;  ///< number of its lines and curves
   double start[2];        ///< where it begins [m, page]
   double direction[2];    ///< unit vector in which it begins; zero for a point
   double end[2];          ///< where it ends [m, page]
-  double length;          ///< of its path [m]
+  double length;          ///< length of its path [m]
 } calligraphy_stroke;
 
 /// The stroke with this index of the character with this index.
 CALLIGRAPHY_API calligraphy_status calligraphy_page_stroke(const calligraphy_page* page, int32_t character,
                                                            int32_t stroke, calligraphy_stroke* result);
 
-/// What is drawn of a stroke.
+/// Which line of a stroke is drawn.
 typedef enum calligraphy_shape {
   CALLIGRAPHY_PATH = 0,    ///< the path of the pen, from start to end
   CALLIGRAPHY_OUTLINE = 1  ///< the outline of its ink, a closed polygon to be filled by the nonzero rule
 } calligraphy_shape;
 
-/// A calligraphy_shape of a stroke as a polyline within `tolerance` of it [m]; 0: a ten thousandth of the character's
-/// square. Writes the number of points to `count` and, unless `points` is null, x and y of each to it [m, page]. With
-/// fewer than `count` of `capacity` points: CALLIGRAPHY_TOO_SMALL, and no point is written.
+/// A calligraphy_shape of a stroke as a polyline within `tolerance` of it [m]; 0: a ten-thousandth of the character's
+/// square. Writes the number of points to `count` and, unless `points` is null, x and y of each to it [m, page]. If
+/// `capacity`, in points, is less than `count`, returns CALLIGRAPHY_TOO_SMALL and writes no point.
 CALLIGRAPHY_API calligraphy_status calligraphy_page_polyline(const calligraphy_page* page, int32_t character,
                                                              int32_t stroke, int32_t shape, double tolerance,
                                                              double* points, size_t capacity, size_t* count);
@@ -186,7 +186,7 @@ typedef struct calligraphy_mapping {
 CALLIGRAPHY_API calligraphy_status calligraphy_page_mapping(const calligraphy_page* page, int32_t pose, double scale,
                                                             calligraphy_mapping* mapping);
 
-/// The position in device axes of a position on the page (3 values each) [m].
+/// Converts a position on the page to device axes (3 values each) [m].
 CALLIGRAPHY_API calligraphy_status calligraphy_mapping_to_device(const calligraphy_mapping* mapping, const double* page,
                                                                  double* device);
 
@@ -196,7 +196,7 @@ CALLIGRAPHY_API calligraphy_status calligraphy_mapping_to_device(const calligrap
 typedef struct calligraphy_capabilities {
   uint32_t size;              ///< sizeof(calligraphy_capabilities)
   char name[44];              ///< for messages, in UTF-8, terminated by a zero
-  int32_t simulated;          ///< 1: not a real device, so that unstable stiffnesses may be tried
+  int32_t simulated;          ///< 1: not a real device, so unstable stiffnesses may be tried
   int32_t velocity_measured;  ///< its velocities are measured; otherwise estimated from its positions
   int32_t sample_delay;       ///< age of a sample when it is read [ticks]
   double workspace[3];        ///< extent along each device axis, centred on zero [m]
@@ -205,8 +205,8 @@ typedef struct calligraphy_capabilities {
   double usable_stiffness;    ///< maximum stiffness reported by its users; 0: unknown [N/m]
   double force_step;          ///< forces are rounded to multiples of it; 0: unknown, or they are not [N]
   double encoder_step;        ///< positions are rounded to multiples of it; 0: unknown, or they are not [m]
-  double velocity_cutoff;     ///< cut-off frequency of the filter of an estimated velocity, above 0 [Hz]
-  double update_rate;         ///< rate of its samples and of the servo loop, above 0 [Hz]
+  double velocity_cutoff;     ///< cut-off frequency of the filter for an estimated velocity, above 0 [Hz]
+  double update_rate;         ///< rate of the samples and the servo loop, above 0 [Hz]
   double apparent_mass;       ///< at the tip; 0: unknown [kg]
   double viscous_friction;    ///< damping of the mechanism itself [N s/m]
   double coulomb_friction;    ///< back-drive friction [N]
@@ -233,21 +233,21 @@ typedef struct calligraphy_device_state {
   int32_t has_velocity;   ///< whether `velocity` is known
   int32_t has_force;      ///< whether `force` is known
   double time;            ///< since the device was opened [s]
-  double position[3];     ///< of the haptic interface point [m]
-  double velocity[3];     ///< of the haptic interface point [m/s]
-  double force[3];        ///< at work when the sample is read; what an energy budget accounts for [N]
-  double force_settling;  ///< how long after the sample before another force may have been at work [s]
+  double position[3];     ///< haptic interface point [m]
+  double velocity[3];     ///< velocity of the haptic interface point [m/s]
+  double force[3];        ///< force at work when the sample is read, for the energy budget [N]
+  double force_settling;  ///< how long after the previous sample another force may have been at work [s]
 } calligraphy_device_state;
 
-/// A simulated device with the hand that holds it, or a device of the program's own.
+/// A simulated device with the hand that holds it, or a device implemented by the program.
 typedef struct calligraphy_device calligraphy_device;
 
-/// The hand about its intended position, equal along all axes. All zero: nobody holds the device.
+/// Impedance of the hand about its intended position, equal along all axes. All zero: nobody holds the device.
 typedef struct calligraphy_grip {
   uint32_t size;     ///< sizeof(calligraphy_grip)
-  double mass;       ///< that moves with the device, usually 0.1 [kg]
-  double damping;    ///< against motion relative to the intended one, usually 3 [N s/m]
-  double stiffness;  ///< of the spring towards the intended position, usually 300 [N/m]
+  double mass;       ///< mass that moves with the device, usually 0.1 [kg]
+  double damping;    ///< damping of motion relative to the intended one, usually 3 [N s/m]
+  double stiffness;  ///< stiffness of the spring towards the intended position, usually 300 [N/m]
 } calligraphy_grip;
 
 /// A simulated device at rest at `position` (device axes, 3 values) [m]. Null `grip`: the usual one.
@@ -256,32 +256,32 @@ CALLIGRAPHY_API calligraphy_status calligraphy_simulated_device_create(const cal
                                                                        const double* position,
                                                                        calligraphy_device** device);
 
-/// How the hand of a pointer device follows the pointer. What is zero takes the default.
+/// How the hand of a pointer device follows the pointer. Members that are zero take the default.
 typedef struct calligraphy_pointer_options {
   uint32_t size;          ///< sizeof(calligraphy_pointer_options)
-  double rate;            ///< rate at which it is read; the device's by default [Hz]
+  double rate;            ///< rate at which the device is read; its own by default [Hz]
   double smoothing_time;  ///< lag of the intended position behind the pointer; 0.03 by default [s]
-  double max_speed;       ///< of the intended position along the paper; 0.5 by default [m/s]
-  double lifting_speed;   ///< of the intended position towards and away from the paper; 0.12 by default [m/s]
-  double hover_height;    ///< above the paper while the pointer is not pressed; 0.008 by default [m]
-  double press_depth;     ///< below the paper at full pressure; 0.005 by default [m]
+  double max_speed;       ///< speed limit of the intended position along the paper; 0.5 by default [m/s]
+  double lifting_speed;   ///< its speed towards and away from the paper; 0.12 by default [m/s]
+  double hover_height;    ///< height above the paper while the pointer is not pressed; 0.008 by default [m]
+  double press_depth;     ///< depth below the paper at full pressure; 0.005 by default [m]
 } calligraphy_pointer_options;
 
-/// A simulated device in a hand that follows a mouse, tablet or finger on a page with this mapping: it needs no
-/// advance, since every read is one period later. Null `grip`, `options`: the usual ones.
+/// A simulated device in a hand that follows a mouse, tablet or finger on a page with this mapping. Every read advances
+/// it by one period. Null `grip` or `options`: the usual ones.
 CALLIGRAPHY_API calligraphy_status calligraphy_pointer_device_create(const calligraphy_capabilities* capabilities,
                                                                      const calligraphy_grip* grip,
                                                                      const calligraphy_pointer_options* options,
                                                                      const calligraphy_mapping* mapping,
                                                                      calligraphy_device** device);
 
-/// The pointer is at x, y [m, page] with a pressure from 0 (not pressed) to 1; use 0.5 for a mouse button. Wait-free;
-/// callable from another thread than the one that reads the device. Only for a pointer device.
+/// Sets the position of the pointer [m, page] and its pressure, from 0 (not pressed) to 1; use 0.5 for a mouse button.
+/// Wait-free; may be called from another thread than the one that reads the device. Only for a pointer device.
 CALLIGRAPHY_API calligraphy_status calligraphy_device_move_pointer(calligraphy_device* device, double x, double y,
                                                                    double pressure, uint32_t buttons);
 
-/// The hand means the pen to be at `position` and to move on at `velocity` (3 values each, device axes) [m, m/s]. Null
-/// `velocity`: zero. Only for a simulated device.
+/// Sets where the hand intends the pen to be, and the velocity at which it moves on (3 values each, device
+/// axes) [m, m/s]. Null `velocity`: zero. Only for a simulated device.
 CALLIGRAPHY_API calligraphy_status calligraphy_device_intend(calligraphy_device* device, const double* position,
                                                              const double* velocity);
 
@@ -291,31 +291,31 @@ CALLIGRAPHY_API calligraphy_status calligraphy_device_advance(calligraphy_device
 /// The newest sample. Only for simulated and pointer devices.
 CALLIGRAPHY_API calligraphy_status calligraphy_device_read(calligraphy_device* device, calligraphy_device_state* state);
 
-/// Commands a force (3 values, device axes), held until the next one [N]. One that is not finite is an error and counts
-/// as zero. Only for simulated and pointer devices.
+/// Commands a force (3 values, device axes), held until the next one [N]. A force that is not finite is an error and
+/// counts as zero. Only for simulated and pointer devices.
 CALLIGRAPHY_API calligraphy_status calligraphy_device_write(calligraphy_device* device, const double* force);
 
-/// A device of the program's own, for a servo: the program supplies its samples, and sends the force of each tick.
+/// A device implemented by the program, for a servo: the program supplies its samples and sends it the ticks' forces.
 CALLIGRAPHY_API calligraphy_status calligraphy_host_device_create(const calligraphy_capabilities* capabilities,
                                                                   calligraphy_device** device);
 
-/// The sample for the next step of a servo; without a new one that step has a stale sample, or again what the last one
-/// said of a fault. Only for a host device.
+/// Supplies the sample for the next step of a servo. A step without a new sample gets a stale one, or the same fault
+/// again. Only for a host device.
 CALLIGRAPHY_API calligraphy_status calligraphy_device_supply(calligraphy_device* device,
                                                              const calligraphy_device_state* state);
 
 // The renderer.
 
-/// Which rules hold where the paper's printed ones were revised (docs/wang2006.md).
+/// Whether the rules of the paper are used as revised or as printed (docs/wang2006.md).
 typedef enum calligraphy_rules {
   CALLIGRAPHY_RULES_REVISED = 0,  ///< all revised
-  CALLIGRAPHY_RULES_WANG2006 = 1  ///< all as printed, but for the signs of eq. (8) and (9)
+  CALLIGRAPHY_RULES_WANG2006 = 1  ///< all as printed, except the signs of eq. (8) and (9)
 } calligraphy_rules;
 
 /// What to do with a stiffness above what is usable or stable on the device.
 typedef enum calligraphy_stiffness_check {
   CALLIGRAPHY_STIFFNESS_REJECT = 0,  ///< calligraphy_renderer_create() fails
-  CALLIGRAPHY_STIFFNESS_CLIP = 1,    ///< use the maximum permitted one; calligraphy_renderer_clipped() says why
+  CALLIGRAPHY_STIFFNESS_CLIP = 1,    ///< use the maximum permitted value; calligraphy_renderer_clipped() says why
   CALLIGRAPHY_STIFFNESS_OFF = 2      ///< accept it, on simulated devices only
 } calligraphy_stiffness_check;
 
@@ -327,53 +327,53 @@ typedef enum calligraphy_nearest_method {
   CALLIGRAPHY_NEAREST_WANG2006 = 3  ///< as printed
 } calligraphy_nearest_method;
 
-/// How guidance depends on where the pen is.
+/// How the guidance force depends on where the pen is.
 typedef enum calligraphy_guidance_law {
   CALLIGRAPHY_GUIDANCE_LINEAR = 0,      ///< a spring within the constraint space, nothing outside
   CALLIGRAPHY_GUIDANCE_SATURATING = 1,  ///< a spring that levels off towards guidance_limit, at any distance
   CALLIGRAPHY_GUIDANCE_WANG2006 = 2,    ///< the linear one as printed, which never lets go
-  CALLIGRAPHY_GUIDANCE_OWN = 3          ///< calligraphy_guidance_functions of the program
+  CALLIGRAPHY_GUIDANCE_OWN = 3          ///< a law of the program's own, calligraphy_guidance_functions
 } calligraphy_guidance_law;
 
-/// What a guidance law is told in a tick: where the pen is, on the page, and what is asked of the law.
+/// Input of a guidance law for one tick: where the pen is, in the page frame, and what the law is asked to do.
 typedef struct calligraphy_guidance_input {
-  uint32_t size;         ///< of what the library knows; it sets it
-  int32_t writing;       ///< whether the pen writes the stroke; otherwise it is on the way to its start
-  double tip[2];         ///< of the pen [m]
-  double velocity[2];    ///< of it, an estimate [m/s]
-  double target[2];      ///< where guidance leads: the nearest point, or one before the start or beyond the end [m]
+  uint32_t size;         ///< size of the struct in the library, which sets it
+  int32_t writing;       ///< the stroke is being written; otherwise the pen is on the way to its start
+  double tip[2];         ///< pen tip [m]
+  double velocity[2];    ///< estimated velocity of the tip [m/s]
+  double target[2];      ///< where guidance leads: nearest point, or one on the way to the start or past the end [m]
   double way[2];         ///< from the tip to the target [m]
-  double tangent[2];     ///< of the stroke at its nearest point, in writing direction; unit vector
-  double stiffness;      ///< guidance_stiffness times `attraction`, as far as the device stands it [N/m]
-  double damping;        ///< guidance_damping as it takes effect [N s/m]
+  double tangent[2];     ///< tangent of the stroke at its nearest point, in writing direction; unit vector
+  double stiffness;      ///< guidance_stiffness times `attraction`, limited to what the device permits [N/m]
+  double damping;        ///< effective guidance_damping [N s/m]
   double attraction;     ///< attraction factor there, eq. (8): 1 on most strokes
-  double weight;         ///< of the constraint space, 0 outside; 1 before the stroke is begun
-  double share;          ///< factor on the force: that of the assistance and, for a law that lets go, `weight` [1]
-  double resistance;     ///< where writing backwards is resisted: of the damping, along the stroke too [1]
-  double nearest[2];     ///< point of the stroke; before it is begun, its start [m]
+  double weight;         ///< weight of the constraint space: 0 outside it; 1 before the stroke is begun
+  double share;          ///< factor on the force: that of the assist policy, times `weight` for a law that lets go [1]
+  double resistance;     ///< where writing backwards is resisted: share of `damping` along the stroke too [1]
+  double nearest[2];     ///< nearest point of the stroke; before it is begun, its start [m]
   double distance;       ///< from the tip to `nearest` [m]
-  double curvature;      ///< of the stroke there, positive to the left [1/m]
+  double curvature;      ///< curvature of the stroke there, positive to the left [1/m]
   double feature[2];     ///< feature point that ends the element there [m]
   double arc;            ///< length of the stroke up to `nearest` [m]
   double left;           ///< length from there to its end [m]
   double backwards;      ///< length by which the pen is behind the furthest point that it reached [m]
   double to_start[2];    ///< from the tip to the start of the stroke [m]
-  double depth;          ///< of the device below the paper [m]
+  double depth;          ///< depth of the device below the paper [m]
   double em;             ///< edge of the character's square [m]
   double dt;             ///< period of the servo loop [s]
-  double max_stiffness;  ///< stable in any hand on the device, beside the other springs and `damping` [N/m]
+  double max_stiffness;  ///< maximum stable in any hand, next to the other springs and `damping` [N/m]
 } calligraphy_guidance_input;
 
-/// What a guidance law answers: forces on the pen, on the page. The library sets them before it asks, so that a law
-/// changes what it means to: no spring, the damper of the built-in laws for `share`, nothing along the normal.
+/// Output of a guidance law: its force on the pen, in page axes. Before each call the library sets no spring, the
+/// damper of the built-in laws for `share` and no normal force, so a law need only set what differs.
 typedef struct calligraphy_guidance_terms {
-  uint32_t size;     ///< of what the library knows; it sets it
-  double spring[2];  ///< what depends on where the pen is [N]
-  double damper[2];  ///< what depends on how it moves, so that an exhausted budget of energy can keep it [N]
-  double normal;     ///< in addition to the paper's, out of the paper [N]
+  uint32_t size;     ///< size of the struct in the library, which sets it
+  double spring[2];  ///< part that depends on where the pen is [N]
+  double damper[2];  ///< part that depends on how the pen moves, which an exhausted budget can keep [N]
+  double normal;     ///< normal force in addition to the paper's, out of the paper [N]
 } calligraphy_guidance_terms;
 
-/// The stroke that a guidance law was told of last. The renderer's: not to be freed, and refused once that is gone.
+/// The stroke that a guidance law last began. Owned by the renderer: not to be freed, and refused once that is gone.
 typedef struct calligraphy_active_stroke calligraphy_active_stroke;
 
 /// A place on a stroke.
@@ -382,36 +382,36 @@ typedef struct calligraphy_stroke_place {
   double point[2];    ///< [m, page]
   double tangent[2];  ///< unit vector in writing direction; zero for a stroke that is a point
   double curvature;   ///< positive where the stroke bends to the left [1/m]
-  double length;      ///< of the whole stroke [m]
+  double length;      ///< length of the whole stroke [m]
 } calligraphy_stroke_place;
 
-/// The place at an arc length from the start, which is clamped to the stroke (NaN counts as 0) [m]. At a corner it is
-/// the end of the element before. Neither allocates, locks nor logs.
+/// The place at an arc length [m] from the start, which is clamped to the stroke (NaN counts as 0). At a corner it is
+/// the end of the previous element. Neither allocates, locks nor logs.
 CALLIGRAPHY_API calligraphy_status calligraphy_active_stroke_at(const calligraphy_active_stroke* stroke, double arc,
                                                                 calligraphy_stroke_place* place);
 
 /// Called before the first force of each attempt at a stroke.
 typedef void calligraphy_guidance_begin(void* user, const calligraphy_active_stroke* stroke);
 
-/// Called in each tick in which the pen is led, never in the air: should neither allocate, lock nor log. Returns 0, or
-/// another value if it failed: then, and if a force is not finite, there is none, and CALLIGRAPHY_TICK_BAD_LAW.
+/// Called in each tick in which the pen is led, never in the air: it should neither allocate, lock nor log. Returns 0,
+/// or another value on failure. That, or a force that is not finite, gives no force and CALLIGRAPHY_TICK_BAD_LAW.
 typedef int32_t calligraphy_guidance_force(void* user, const calligraphy_guidance_input* input,
                                            calligraphy_guidance_terms* terms);
 
 /// A guidance law of the program's own (docs/c.md). calligraphy_renderer_update() and calligraphy_servo_step() call it
 /// in their thread; it must not use their renderer or servo. Renderers with the same `user` share what it points to.
-/// What is zero takes the default. A law that is stiffer than the device stands is refused, or scaled down
-/// (stiffness_check). Where its stiffness is not known, the force follows the pen at the one that the device stands,
-/// and there is a budget of energy, without which a real device is refused.
+/// Members that are zero take the default. A law stiffer than the device permits is refused or scaled down
+/// (stiffness_check). If its stiffness is unknown, the force follows the pen at the stiffness that the device permits,
+/// within an energy budget, without which a real device is refused.
 typedef struct calligraphy_guidance_functions {
   uint32_t size;                      ///< sizeof(calligraphy_guidance_functions)
-  int32_t never_lets_go;              ///< not even of a pen far from the stroke, or that the hand pulls elsewhere
-  void* user;                         ///< given to the functions; it must live as long as the renderer
+  int32_t never_lets_go;              ///< not even of a pen far from the stroke or pulled elsewhere by the hand
+  void* user;                         ///< passed to the functions; it must live as long as the renderer
   calligraphy_guidance_begin* begin;  ///< may be null
   calligraphy_guidance_force* force;  ///< must not be null
   const char* name;                   ///< for messages, in UTF-8; "own" by default
-  double stiffness;                   ///< by which its force changes at most as the pen moves; 0: not known [N/m]
-  double power;                       ///< at most 10, to lead a pen on with; added to the budget, which it needs [W]
+  double stiffness;                   ///< maximum change of its force with the position of the pen; 0: unknown [N/m]
+  double power;                       ///< power to lead a pen on, at most 10; added to the budget, which it needs [W]
 } calligraphy_guidance_functions;
 
 /// How exactly a stroke must be written to count as the one that is due.
@@ -422,73 +422,73 @@ typedef enum calligraphy_tolerance {
 } calligraphy_tolerance;
 
 /// Options of a renderer: those of RendererOptions in C++, group by group. Begin with
-/// calligraphy_renderer_options_for(); all zero is no useful set of options.
+/// calligraphy_renderer_options_for(): zeros are not the defaults.
 typedef struct calligraphy_renderer_options {
   uint32_t size;             ///< sizeof(calligraphy_renderer_options)
   int32_t rules;             ///< a calligraphy_rules
   int32_t stiffness_check;   ///< a calligraphy_stiffness_check
   int32_t nearest_method;    ///< a calligraphy_nearest_method
-  double nearest_tolerance;  ///< exact, tracked: error of the point; wang2006: epsilon, both in shares of the element
-  int32_t nearest_samples;   ///< sampled: points
-  int32_t nearest_refinements;  ///< sampled: steps of refinement
+  double nearest_tolerance;  ///< exact, tracked: error of the point; wang2006: epsilon; relative to the element's size
+  int32_t nearest_samples;   ///< sampled: number of points
+  int32_t nearest_refinements;  ///< sampled: number of refinement steps
   double servo_rate;            ///< ticks per second; 0: the device's own rate [Hz]
-  double velocity_cutoff;       ///< of the low-pass on the pen's velocity [Hz]
-  double grip_stiffness;        ///< of a usual grip [N/m, device]
+  double velocity_cutoff;       ///< cut-off frequency of the low-pass on the pen's velocity [Hz]
+  double grip_stiffness;        ///< stiffness of a usual grip [N/m, device]
 
-  double paper_stiffness;             ///< of the paper's surface, K_en of eq. (9) [N/m]
-  double paper_damping;               ///< of the paper's surface [N s/m]
+  double paper_stiffness;             ///< stiffness of the paper's surface, K_en of eq. (9) [N/m]
+  double paper_damping;               ///< damping of the paper's surface [N s/m]
   double paper_onset;                 ///< depth over which both rise from zero [m]
   double paper_friction_coefficient;  ///< tangential over normal force; 0: no friction [1]
-  double paper_friction_stiffness;    ///< of the spring between pen and paper [N/m]
-  double paper_friction_damping;      ///< of that spring [N s/m]
+  double paper_friction_stiffness;    ///< stiffness of the spring between pen and paper [N/m]
+  double paper_friction_damping;      ///< damping of that spring [N s/m]
 
   int32_t guidance_law;                 ///< a calligraphy_guidance_law
   int32_t guidance_to_start;            ///< pull the pen to the start of the stroke that is due
   int32_t assist_enabled;               ///< let guidance fade as the writer improves
-  double guidance_stiffness;            ///< of the spring to the stroke, K_et of eq. (8) [N/m]
-  double guidance_damping;              ///< against motion across the stroke [N s/m]
+  double guidance_stiffness;            ///< stiffness of the spring to the stroke, K_et of eq. (8) [N/m]
+  double guidance_damping;              ///< damping of motion across the stroke [N s/m]
   double guidance_limit;                ///< maximum force of the spring with the saturating law [N]
   double guidance_radius;               ///< distance from the stroke beyond which it does not attract [em]
   double guidance_fade_width;           ///< width of the edge in which the force fades out [em]
-  double guidance_fade_in;              ///< time in which it sets in [s]
-  double guidance_fade_out;             ///< time in which it lets go [s]
-  double guidance_wrong_way_stiffness;  ///< of the spring against writing backwards; 0: none [N/m]
+  double guidance_fade_in;              ///< time over which the force rises from zero [s]
+  double guidance_fade_out;             ///< time over which it is withdrawn when it lets go [s]
+  double guidance_wrong_way_stiffness;  ///< stiffness of the spring that resists writing backwards; 0: none [N/m]
   double guidance_wrong_way_limit;      ///< maximum force of that spring [N]
-  double guidance_wrong_way_slack;      ///< by which the pen may be behind its furthest point [em]
+  double guidance_wrong_way_slack;      ///< length by which the pen may be behind its furthest point [em]
   double assist_retention;              ///< share of the previous assistance that is retained [1]
   double assist_full_error;             ///< error of a stroke that keeps the assistance at 1 [em]
   double assist_min;                    ///< lower bound of the assistance [1]
 
   double contact_lift_time;              ///< a pen above the paper counts as lifted after this time [s]
   double contact_lift_clearance;         ///< a pen this far above the paper counts as lifted at once [m]
-  double contact_box_margin;             ///< by how much a character's box is larger than its square [em]
+  double contact_box_margin;             ///< margin of a character's box around its square [em]
   int32_t contact_lift_between_strokes;  ///< a stroke begins only with a new contact
 
   double tolerance_start_distance;  ///< a stroke begins within this distance of its start [em]
-  double tolerance_direction;       ///< of its first stretch [rad]
+  double tolerance_direction;       ///< greatest angle between its first stretch and the stroke's own [rad]
   double tolerance_first_stretch;   ///< length of that stretch [em]
-  double tolerance_distinction;     ///< by which a later stroke must fit better [1]
-  double tolerance_corridor;        ///< half the width of what counts as covered [em]
+  double tolerance_distinction;     ///< factor by which a later stroke must fit better to be meant [1]
+  double tolerance_corridor;        ///< half the width of the corridor within which writing counts as covered [em]
   double tolerance_coverage;        ///< share of the length that must be written in order [1]
-  double tolerance_slack;           ///< length that may be missing besides [em]
+  double tolerance_slack;           ///< length that may be missing in addition [em]
 
-  double limit_in_plane_rate;          ///< of the force in the paper plane; may be infinite [N/s]
-  double limit_normal_rate;            ///< of the force along the normal; may be infinite [N/s]
-  double limit_thermal_time_constant;  ///< of the motors; 0: not considered [s]
+  double limit_in_plane_rate;          ///< maximum rate of the force in the paper plane; may be infinite [N/s]
+  double limit_normal_rate;            ///< maximum rate of the force along the normal; may be infinite [N/s]
+  double limit_thermal_time_constant;  ///< time constant of the motors; 0: heat is not considered [s]
   double limit_max_speed;              ///< a sample that implies a faster pen is a fault [m/s, device]
-  double limit_max_acceleration;       ///< likewise, off the way that the last ones lead; infinite: any [m/s^2, device]
-  double limit_max_standstill;         ///< a sensor is dead that stands still for longer while its force changes [s]
+  double limit_max_acceleration;       ///< limit off the course of the last samples; infinite: none [m/s^2, device]
+  double limit_max_standstill;         ///< a sensor that stands still for longer while the force changes is dead [s]
 
   double energy_budget;   ///< maximum net energy given since the start; infinite: no limit [J]
-  double energy_max_gap;  ///< longest time without a sample that it must hold over [s]
+  double energy_max_gap;  ///< longest time without a fresh sample for which it must hold [s]
 
-  const calligraphy_guidance_functions* guidance_functions;  ///< the own law, copied; null otherwise, and in results
+  const calligraphy_guidance_functions* guidance_functions;  ///< own law, copied; null otherwise, and in results
 } calligraphy_renderer_options;
 
 /// Which options to begin with.
 typedef enum calligraphy_preset {
   CALLIGRAPHY_PRESET_DEVICE = 0,      ///< the defaults, fitted to the device: stable in any hand on it
-  CALLIGRAPHY_PRESET_EVERYTHING = 1,  ///< and the optional stages that serve every writer
+  CALLIGRAPHY_PRESET_EVERYTHING = 1,  ///< with the optional stages that serve every writer
   CALLIGRAPHY_PRESET_WANG2006 = 2     ///< as printed; on simulated devices only
 } calligraphy_preset;
 
@@ -512,7 +512,7 @@ CALLIGRAPHY_API calligraphy_status calligraphy_renderer_create(const calligraphy
 CALLIGRAPHY_API calligraphy_status calligraphy_renderer_effective_options(const calligraphy_renderer* renderer,
                                                                           calligraphy_renderer_options* options);
 
-/// What was clipped, one line per value, with the reason; valid as long as the renderer.
+/// The values that were clipped, one line each, with the reason; valid as long as the renderer.
 CALLIGRAPHY_API calligraphy_status calligraphy_renderer_clipped(const calligraphy_renderer* renderer,
                                                                 const char** lines);
 
@@ -531,9 +531,9 @@ typedef enum calligraphy_event {
   CALLIGRAPHY_STROKE_STARTED = 4,       ///< the first stretch of the active stroke was written
   CALLIGRAPHY_FEATURE_PASSED = 8,       ///< a feature point of the active stroke was passed
   CALLIGRAPHY_STROKE_FINISHED = 16,     ///< a stroke was written to its end; the tick's `stroke` is already the next
-  CALLIGRAPHY_STROKE_ABANDONED = 32,    ///< left before its end; its trace is to be cleared
-  CALLIGRAPHY_CHARACTER_FINISHED = 64,  ///< its last stroke was finished
-  CALLIGRAPHY_PAGE_FINISHED = 128       ///< its last character was finished
+  CALLIGRAPHY_STROKE_ABANDONED = 32,    ///< a stroke was left before its end; its trace is to be cleared
+  CALLIGRAPHY_CHARACTER_FINISHED = 64,  ///< the last stroke of a character was finished
+  CALLIGRAPHY_PAGE_FINISHED = 128       ///< the last character of the page was finished
 } calligraphy_event;
 
 /// Whether the sample of a tick was usable.
@@ -543,21 +543,21 @@ typedef enum calligraphy_tick_status {
   CALLIGRAPHY_TICK_BAD_SAMPLE = 2,    ///< not finite, or too far away: the force ramps down to zero
   CALLIGRAPHY_TICK_DEVICE_FAULT = 3,  ///< reported by the device: the force ramps down to zero
   CALLIGRAPHY_TICK_BAD_CLOCK = 4,     ///< times not in seconds, or a loop not at its rate: the force ramps down to zero
-  CALLIGRAPHY_TICK_BAD_LAW = 5        ///< the guidance law failed, or is not finite: the force ramps down to zero
+  CALLIGRAPHY_TICK_BAD_LAW = 5        ///< the law failed, or its force is not finite: the force ramps down to zero
 } calligraphy_tick_status;
 
 /// Why a pen on the paper is not guided.
 typedef enum calligraphy_hint {
-  CALLIGRAPHY_HINT_NONE = 0,             ///< it is guided, not on the paper, or back on it once all is written
+  CALLIGRAPHY_HINT_NONE = 0,             ///< guided, not on the paper, or back on it once everything is written
   CALLIGRAPHY_HINT_WRITE = 1,            ///< at the start of the stroke that is due: write on
   CALLIGRAPHY_HINT_TOO_FAR = 2,          ///< too far from the start
   CALLIGRAPHY_HINT_AT_END = 3,           ///< at the stroke's end
   CALLIGRAPHY_HINT_IN_MIDDLE = 4,        ///< in the middle of the stroke
   CALLIGRAPHY_HINT_WRONG_DIRECTION = 5,  ///< at the start, but moving another way
-  CALLIGRAPHY_HINT_ANOTHER_STROKE = 6,   ///< moving as if it began another stroke
+  CALLIGRAPHY_HINT_ANOTHER_STROKE = 6,   ///< moving as if to begin another stroke
   CALLIGRAPHY_HINT_OFF_STROKE = 7,       ///< writing, but too far from the stroke or pulled aside
-  CALLIGRAPHY_HINT_LIFT_FIRST = 8,       ///< lift the pen first: the stroke before has just been finished
-  CALLIGRAPHY_HINT_WARM_MOTORS = 9       ///< guided, but with less force than that takes: let the motors rest
+  CALLIGRAPHY_HINT_LIFT_FIRST = 8,       ///< lift the pen first: the previous stroke has just been finished
+  CALLIGRAPHY_HINT_WARM_MOTORS = 9       ///< guided, but warm motors permit less force than that takes: let them rest
 } calligraphy_hint;
 
 /// Result of one tick.
@@ -565,34 +565,34 @@ typedef struct calligraphy_tick {
   uint32_t size;         ///< sizeof(calligraphy_tick)
   int32_t status;        ///< a calligraphy_tick_status
   int32_t state;         ///< a calligraphy_interaction_state
-  uint32_t events;       ///< of calligraphy_event
+  uint32_t events;       ///< bits of calligraphy_event
   int32_t hint;          ///< a calligraphy_hint
   int32_t character;     ///< index of the active character; the number of characters once all are written
-  int32_t stroke;        ///< index of its active stroke; the number of strokes, no index, until the last lift
-  int32_t element;       ///< of the stroke, at the nearest point
-  double time;           ///< of the sample [s]
+  int32_t stroke;        ///< index of its active stroke; the number of strokes from the last one's end until the lift
+  int32_t element;       ///< element of the stroke at the nearest point
+  double time;           ///< sample time [s]
   double force[3];       ///< to be sent to the device: after all limits, with a servo also after its ramps [N, device]
-  double page_force[3];  ///< the same on the pen [N, page]
+  double page_force[3];  ///< the same force on the pen [N, page]
   double device_point[3];    ///< haptic interface point [m, page]
   double pen_tip[3];         ///< virtual pen tip, on the paper while the pen touches it [m, page]
-  double penetration;        ///< of the haptic interface point into the paper [m]
+  double penetration;        ///< depth of the haptic interface point in the paper [m]
   double next_start[2];      ///< start of the active stroke; zero once all are written [m, page]
   double next_direction[2];  ///< unit vector in which it begins; zero for a point, or once all are written
   double to_start[2];        ///< from the pen tip to the start of the active, or last, stroke [m, page]
   double covered;            ///< share of the stroke written last that was covered in order [1]
-  double closest[2];         ///< nearest point of the stroke; while writing, when leaving, and for hints [m, page]
+  double closest[2];         ///< nearest point of the stroke, while writing, when leaving and for hints [m, page]
   double tangent[2];         ///< unit vector of the stroke there, in writing direction
   double distance;           ///< from the pen tip to it [m]
   double arc;                ///< arc length from the start of the stroke to it [m]
-  double backwards;          ///< how far it lies behind the furthest point reached [m]
+  double backwards;          ///< how far that is behind the furthest point reached [m]
   double attraction[2];      ///< force term of guidance, before fade-in and limits [N, page]
-  double wrong_way[2];       ///< force term against writing backwards, likewise [N, page]
+  double wrong_way[2];       ///< force term against writing backwards, before fade-in and limits [N, page]
   double friction[2];        ///< force term of friction, before limits [N, page]
   double viscous[3];         ///< damping of guidance, friction and paper, before limits [N, page]
   double normal;             ///< force term of the paper, before limits [N, out of the paper]
   double assistance;         ///< factor on the guidance [1]
   double energy_given;       ///< net energy delivered to the hand; 0 without a budget [J]
-  double heat;               ///< of the motors; 1: in equilibrium at the continuous force [1]
+  double heat;               ///< heat of the motors; 1: in equilibrium at the continuous force [1]
 } calligraphy_tick;
 
 /// Processes one sample, and writes the result with the force for the device to `tick`. Neither allocates, locks nor
@@ -605,12 +605,12 @@ CALLIGRAPHY_API calligraphy_status calligraphy_renderer_update(calligraphy_rende
 /// Starts the page again, with nothing written and zero force.
 CALLIGRAPHY_API calligraphy_status calligraphy_renderer_restart(calligraphy_renderer* renderer);
 
-/// Passes over the stroke that is due, as though it had been written, but without an event: neither a recording nor a
-/// score counts it as written. Past the last stroke of a character the next one is due, and past that of the last
+/// Skips the stroke that is due as though it had been written, but without an event: neither a recording nor a score
+/// counts it as written. After the last stroke of a character the next character is due, and after that of the last
 /// character the page counts as written. A pen on the paper must be lifted first, as after a stroke that was written.
-/// The next tick shows it. Neither allocates, locks nor logs. Writes to `skipped` whether it did: not while the pen
-/// writes the stroke (CALLIGRAPHY_WRITING), nor where none is due: the page is written, or the pen has not left the
-/// last stroke of the character yet. A null `skipped` is not written.
+/// The next tick shows the skip. Neither allocates, locks nor logs. Writes to `skipped`, unless it is null, whether it
+/// did: not while the pen writes the stroke (CALLIGRAPHY_WRITING), nor when none is due: the page is written, or the
+/// pen has not left the last stroke of the character yet.
 CALLIGRAPHY_API calligraphy_status calligraphy_renderer_skip_stroke(calligraphy_renderer* renderer, int32_t* skipped);
 
 /// The words for a tick's hint, "too far from the start: 12 mm to the upper left", in UTF-8 and terminated by a zero.
@@ -637,25 +637,24 @@ typedef enum calligraphy_servo_phase {
 typedef struct calligraphy_servo_state {
   uint32_t size;          ///< sizeof(calligraphy_servo_state)
   int32_t phase;          ///< a calligraphy_servo_phase
-  int32_t device_status;  ///< of the last sample, a calligraphy_device_status
-  double gain;            ///< on the renderer's force, or on the held one while it ramps down [1]
+  int32_t device_status;  ///< calligraphy_device_status of the last sample
+  double gain;            ///< factor on the renderer's force, or on the held one during a ramp-down [1]
   uint64_t ticks;         ///< steps so far
-  uint64_t missed;        ///< steps that were due between two that came
+  uint64_t missed;        ///< steps that were due but did not come
   char fault[24];         ///< cause of a ramp-down, until the force has ramped up again: "unplugged"; or empty
-  char advice[128];       ///< what the person who holds the device has to do, such as to calibrate it; or empty
+  char advice[128];       ///< what the user has to do about the device, such as calibrate it; or empty
 } calligraphy_servo_state;
 
-/// A servo loop of a device and a renderer, at the renderer's rate. Both may be freed before it. While it is used, give
-/// samples to the renderer by it alone. The force ramps down after 4 ms without a sample; below 500 Hz, after two
+/// A servo loop of a device and a renderer, at the renderer's rate. Both may be freed before it. While it is used, do
+/// not update the renderer in any other way. The force ramps down after 4 ms without a sample; below 500 Hz, after two
 /// periods.
 CALLIGRAPHY_API calligraphy_status calligraphy_servo_create(calligraphy_device* device, calligraphy_renderer* renderer,
                                                             calligraphy_servo** servo);
 
-/// One step at the time `now` of a clock that does not run backwards [s]: reads the device, updates the renderer and
-/// writes the force, which `tick` has; otherwise `tick` is the renderer's result. In a step without a good sample that
-/// is the last one, with a status and without events. On failure the tick's force is zero, and the device's unchanged.
-/// Neither allocates, locks nor logs. A null `tick` is not written. Advance a simulated device after each step by the
-/// same time.
+/// Runs one step at time `now` [s] of a clock that does not run backwards: reads the device, updates the renderer and
+/// writes the force. `tick`, unless null, gets the renderer's result with the force that was written; in a step without
+/// a good sample, the last result with a status and without events. On failure the tick's force is zero and the
+/// device's is unchanged. Neither allocates, locks nor logs. Advance a simulated device by as much after each step.
 CALLIGRAPHY_API calligraphy_status calligraphy_servo_step(calligraphy_servo* servo, double now, calligraphy_tick* tick);
 
 /// From the next step on, ramps the force down to zero and keeps it there.
@@ -761,70 +760,70 @@ typedef struct calligraphy_recording calligraphy_recording;
 CALLIGRAPHY_API calligraphy_status calligraphy_recording_create(const calligraphy_page* page, double rate,
                                                                 calligraphy_recording** recording);
 
-/// Appends a tick: all of them belong into it, those with the pen in the air too, in the order of their times. Takes
-/// 104 bytes. It allocates now and then, which a real-time loop had better leave to another thread. Where the hand felt
-/// no force, as with vision alone, set the tick's `page_force` to zero before.
+/// Appends a tick, which takes 104 bytes. Add all ticks in order of time, also those with the pen in the air. Allocates
+/// now and then, which a real-time loop should leave to another thread. If the hand felt no force, as with vision
+/// alone, set the tick's `page_force` to zero first.
 CALLIGRAPHY_API calligraphy_status calligraphy_recording_add(calligraphy_recording* recording,
                                                              const calligraphy_tick* tick);
 
 /// Scores of all characters of a recording (docs/practice.md).
 typedef struct calligraphy_score calligraphy_score;
 
-/// Scores what was written up to now: a pen-down belongs to the character in whose square it lies, or to the nearest.
-/// Distances are those on the page. `tolerance`: a calligraphy_tolerance. CALLIGRAPHY_INVALID_VALUE if the ticks are of
-/// another page, or a time is before the previous one.
+/// Scores what has been written so far: a pen-down belongs to the character in whose square it lies, or to the nearest.
+/// Distances are measured on the page. `tolerance`: a calligraphy_tolerance. CALLIGRAPHY_INVALID_VALUE if the ticks are
+/// of another page, or a time is before the previous one.
 CALLIGRAPHY_API calligraphy_status calligraphy_score_recording(const calligraphy_recording* recording,
                                                                int32_t tolerance, calligraphy_score** score);
 
-/// Score of a character. What was not measured is NaN: errors where no stroke was written, the time of a character that
-/// was not completed.
+/// Score of a character. Quantities that were not measured are NaN: errors if no stroke was written, the time if the
+/// character was not completed.
 typedef struct calligraphy_character_score {
   uint32_t size;               ///< sizeof(calligraphy_character_score)
   uint32_t code;               ///< Unicode code point
   int32_t stroke_count;        ///< strokes of the character
-  int32_t strokes_written;     ///< of these, strokes that a pen-down wrote, wholly or for the most part
-  int32_t strokes_completed;   ///< of these, strokes with CALLIGRAPHY_STROKE_FINISHED
+  int32_t strokes_written;     ///< of these, the ones written, wholly or for the most part
+  int32_t strokes_completed;   ///< of these, the ones finished (CALLIGRAPHY_STROKE_FINISHED)
   int32_t pen_down_count;      ///< number of pen-downs
   int32_t order_mistakes;      ///< remarks of CALLIGRAPHY_REMARK_ORDER
   int32_t direction_mistakes;  ///< remarks of CALLIGRAPHY_REMARK_DIRECTION
   int32_t lost_samples;        ///< ticks without a usable position while the character was active; left out
   int32_t pen_ups;             ///< lifts between the first pen-down and the last
-  int32_t velocity_peaks;      ///< of all pen-downs; few in fluent writing
+  int32_t velocity_peaks;      ///< number in all pen-downs; few in fluent writing
   double time;                 ///< from the first pen-down to the tick that finished the last stroke [s]
-  double rms_error;            ///< of the strokes written: distance of the pen, over the length of its path [m]
-  double max_error;            ///< of the strokes written: the largest distance of the pen [m]
-  double overall_error;        ///< `rms_error` with what was left out, of all strokes [m]
+  double rms_error;            ///< RMS distance of the pen from the strokes written, over its path length [m]
+  double max_error;            ///< largest distance of the pen from the strokes written [m]
+  double overall_error;        ///< `rms_error` over all strokes, unwritten parts included [m]
   double coverage;             ///< share of the length of all strokes that was written in order [1]
   double dtw_distance;         ///< mean distance by dynamic time warping of the strokes written [m]
-  double contour;              ///< how near the pen was to the strokes, from 0 to 1 [1]
+  double contour;              ///< how close the pen was to the strokes, from 0 to 1 [1]
   double external_sequence;    ///< share of the strokes that were written in order [1]
   double internal_sequence;    ///< share of the strokes that were not written backwards [1]
   double fidelity;             ///< geometric mean of these three [1]
-  double mean_pressure;        ///< mean force across the paper, with the pen on it [N]
-  double peak_force;           ///< on the page [N]
-  double max_force_step;       ///< of that, from one tick to the next [N]
+  double mean_pressure;        ///< mean force normal to the paper while the pen is on it [N]
+  double peak_force;           ///< largest force on the page [N]
+  double max_force_step;       ///< largest change of that force from one tick to the next [N]
   double duration;             ///< from the first touch to the last lift [s]
   double time_on_paper;        ///< sum of the durations of the pen-downs [s]
   double time_in_air;          ///< between the pen-downs [s]
   double path_length;          ///< on the paper [m]
   double mean_speed;           ///< on the paper [m/s]
   double peak_speed;           ///< on the paper [m/s]
-  double smoothness;           ///< mean of the pen-downs' [1]
+  double smoothness;           ///< mean over the pen-downs [1]
 } calligraphy_character_score;
 
 /// The score of the character with this index.
 CALLIGRAPHY_API calligraphy_status calligraphy_score_character(const calligraphy_score* score, int32_t character,
                                                                calligraphy_character_score* result);
 
-/// What was written of a stroke. What was not measured is NaN.
+/// Score of a stroke. Quantities that were not measured are NaN.
 typedef struct calligraphy_stroke_score {
   uint32_t size;         ///< sizeof(calligraphy_stroke_score)
-  int32_t pen_down;      ///< the first one that wrote it; -1: none
-  int32_t completed;     ///< whether it had CALLIGRAPHY_STROKE_FINISHED
-  double coverage;       ///< share of its length that was written in order; 0 if it was written backwards [1]
-  double rms_error;      ///< distance of the pen from the stroke, over the length of the pen's path [m]
-  double max_error;      ///< the largest distance of the pen from the stroke [m]
-  double overall_error;  ///< `rms_error` with what was left out [m]
+  int32_t pen_down;      ///< index of the first pen-down that wrote it; -1: none
+  int32_t completed;     ///< whether it was finished (CALLIGRAPHY_STROKE_FINISHED)
+  double coverage;       ///< share of its length written in order; 0 if it was written backwards [1]
+  double rms_error;      ///< RMS distance of the pen from the stroke, over the length of the pen's path [m]
+  double max_error;      ///< largest distance of the pen from the stroke [m]
+  double overall_error;  ///< `rms_error` with the unwritten part included [m]
   double dtw_distance;   ///< distance of what was written from the stroke by dynamic time warping [m]
 } calligraphy_stroke_score;
 
@@ -832,7 +831,7 @@ typedef struct calligraphy_stroke_score {
 CALLIGRAPHY_API calligraphy_status calligraphy_score_stroke(const calligraphy_score* score, int32_t character,
                                                             int32_t stroke, calligraphy_stroke_score* result);
 
-/// One pen-down. What was not measured is NaN, as are speeds and smoothness of one that is shorter than 50 ms.
+/// One pen-down. Quantities that were not measured are NaN, as are speeds and smoothness if it is shorter than 50 ms.
 typedef struct calligraphy_pen_down_score {
   uint32_t size;           ///< sizeof(calligraphy_pen_down_score)
   int32_t velocity_peaks;  ///< 1 in a single fluent motion, more where the pen hesitates
@@ -842,7 +841,7 @@ typedef struct calligraphy_pen_down_score {
   double mean_speed;       ///< path_length / (end - begin) [m/s]
   double peak_speed;       ///< [m/s]
   double smoothness;       ///< spectral arc length (SPARC): about -1.4 in a fluent motion, lower otherwise [1]
-  double mean_pressure;    ///< mean force across the paper [N]
+  double mean_pressure;    ///< mean force normal to the paper [N]
 } calligraphy_pen_down_score;
 
 /// The pen-down with this index of the character with this index.
