@@ -122,7 +122,7 @@ void add_collision(py::module_& module) {
       .def("arc_length", &StrokeElement::arc_length, "t"_a)
       .def("parameter_at", &StrokeElement::parameter_at, "arc_length"_a)
       .def("__repr__", [](const StrokeElement& self) {
-        return told("StrokeElement(degree {}, length {:.6g})", self.degree(), self.length());
+        return formatted("StrokeElement(degree {}, length {:.6g})", self.degree(), self.length());
       });
 
   module.def("nearest_point", &ask, "control_points"_a, "queries"_a, "method"_a = "exact", "tolerance"_a = 1e-9,
@@ -134,7 +134,7 @@ void add_collision(py::module_& module) {
              "InvalidValue naming the argument.");
 
   add_struct<StrokePlace>(module);
-  py::class_<ActiveStroke>(module, "ActiveStroke", "The stroke that is due, as begin() of a guidance law is told.")
+  py::class_<ActiveStroke>(module, "ActiveStroke", "The stroke that is due, as passed to begin() of a guidance law.")
       .def_property_readonly("length", &ActiveStroke::length)
       .def("at", &ActiveStroke::at, "arc"_a);
   module.def("place_elements", &place_elements, "stroke"_a, "placement"_a);

@@ -14,7 +14,7 @@ namespace {
 
 double no_time() noexcept { return 0.0; }
 
-/// A force that is not finite counts as zero in C++, where a servo loop must not throw; here the author is told.
+/// A force that is not finite counts as zero in C++, where a servo loop must not throw; here it raises too.
 void write(HapticDevice& device, const Eigen::Vector3d& force) {
   device.write(force);
   if (force.allFinite()) return;
@@ -84,7 +84,7 @@ std::unique_ptr<VirtualServo> make_servo(HapticDevice& device, Law law, double r
   return std::make_unique<VirtualServo>(device, std::move(law), options);
 }
 
-/// At the end of Python too, before its threads are: a device written in Python can still be told.
+/// Also at exit, before Python ends its threads: a device written in Python can still be called.
 void install_for_python() {
   install_emergency_stop();
   static const bool registered = [] {

@@ -6,7 +6,7 @@
 namespace calligraphy::python {
 namespace {
 
-/// The text of the headers; own text of a binding replaces it, or follows it if it begins with "+ ".
+/// The text of the headers; a binding's own text replaces it, or follows it if it begins with "+ ".
 /// @throws ImportError when there is neither, which fails the build too
 std::string complete(const std::string& owner, const std::string& name, const std::string& own) {
   if (!own.empty() && own[0] != '+') return own;
@@ -44,7 +44,7 @@ std::string parameters(const py::detail::function_record& function) {
   return "(" + text + ")";
 }
 
-/// Replaces a text of Python's, which begins with the signature so that inspect.signature() finds it.
+/// Replaces a docstring, which begins with the signature so that inspect.signature() finds it.
 template <class Allocate, class Free>
 void replace(const char*& old, const std::string& signature, const std::string& text, Allocate allocate, Free free) {
   const std::string all = signature + "\n--\n\n" + text;
@@ -67,9 +67,9 @@ std::string document_members(const py::object& owner, const std::string& name) {
     if (record == nullptr || record->def->ml_doc == nullptr) continue;  // not of this module
     std::string text = record->def->ml_doc;                             // the types, and the text of the binding
     const std::string own = record->doc != nullptr ? record->doc : "";
-    const std::string told = called.starts_with("__") ? own : complete(name, called, own);
-    if (own.empty() && !told.empty()) text += '\n' + told + '\n';
-    if (!own.empty()) text.replace(text.find(own), own.size(), told);
+    const std::string full = called.starts_with("__") ? own : complete(name, called, own);
+    if (own.empty() && !full.empty()) text += '\n' + full + '\n';
+    if (!own.empty()) text.replace(text.find(own), own.size(), full);
     const std::string given = parameters(*record);
     replace(record->def->ml_doc, called + given, text, std::malloc, std::free);
     if (!record->is_constructor) continue;
@@ -79,7 +79,7 @@ std::string document_members(const py::object& owner, const std::string& name) {
   return constructor;
 }
 
-/// pydoc shows the bases of a class and what a function is bound to: those of pybind11 say nothing to users.
+/// pydoc shows base classes and what functions are bound to: the names of pybind11 mean nothing to users.
 void hide_names_of_pybind11(const py::module_& module) {
   const auto rename = [](const py::object& type, const char* name) {
     type.attr("__name__") = name;

@@ -31,8 +31,8 @@ struct Field {
 template <class Struct, class Type>
 Field(Type Struct::*, const char*) -> Field<Struct, Type>;
 
-// Defined by the generated header for the classes, structs and enumerations of the library; besides, `texts`, ordered
-// by owner and name.
+// The generated header specialises these for the classes, structs and enumerations of the library. It also defines
+// `texts`, ordered by owner and name.
 template <class Type>
 inline constexpr const char* name_of = "";
 template <class Struct>
@@ -51,7 +51,7 @@ void each_field(Visit&& visit) {
   std::apply([&](const auto&... field) { (visit(field), ...); }, fields_of<Struct>);
 }
 
-/// Of a name in the headers; empty if they have none.
+/// Documentation of a name in the headers; empty if there is none.
 const char* text_of(std::string_view owner, std::string_view name);
 
 }  // namespace calligraphy::python

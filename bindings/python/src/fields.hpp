@@ -46,7 +46,7 @@ namespace calligraphy::python {
 
 /// Formats a one-line description by Python's str.format.
 template <class... Values>
-std::string told(const char* format, Values&&... values) {
+std::string formatted(const char* format, Values&&... values) {
   return py::str(format).format(std::forward<Values>(values)...).template cast<std::string>();
 }
 
@@ -83,7 +83,7 @@ inline constexpr bool is_optional = false;
 template <class Value>
 inline constexpr bool is_optional<std::optional<Value>> = true;
 
-/// What is converted to a type, in words: "a number", or "numbers" as elements of a list.
+/// What can be converted to a type, in words: "a number", or "numbers" as elements of a list.
 template <class Type>
 std::string expectation(bool elements = false) {
   if constexpr (is_optional<Type>) {
@@ -104,7 +104,7 @@ std::string expectation(bool elements = false) {
     return elements ? "numbers" : "a number";
   } else if constexpr (std::is_integral_v<Type>) {
     using Limits = std::numeric_limits<Type>;
-    return told(elements ? "integers from {} to {}" : "an integer from {} to {}", +Limits::min(), +Limits::max());
+    return formatted(elements ? "integers from {} to {}" : "an integer from {} to {}", +Limits::min(), +Limits::max());
   } else {
     const auto name = py::type::of(py::cast(Type{})).attr("__name__").template cast<std::string>();
     if (elements) return name;
@@ -112,7 +112,7 @@ std::string expectation(bool elements = false) {
   }
 }
 
-/// Any object; in signatures, what is converted to the type.
+/// Any object; in signatures, what can be converted to the type.
 template <class Type>
 struct Given : ArrayLike {
   using ArrayLike::ArrayLike;
@@ -129,12 +129,12 @@ Type converted(const Given<Type>& given, const std::string& name) {
     return given.template cast<Type>();
   } catch (const ValueError& wrong) {
     throw ValueError(name + ": " + wrong.what());
-  } catch (const py::builtin_exception&) {  // of a failed conversion
+  } catch (const py::builtin_exception&) {  // the conversion failed
   } catch (const py::error_already_set& raised) {
-    if (!raised.matches(PyExc_TypeError)) throw;  // of a sequence that cannot be iterated over
+    if (!raised.matches(PyExc_TypeError)) throw;  // a TypeError: a sequence that cannot be iterated over
   }
   const py::object brief = py::module_::import("calligraphy._struct").attr("brief")(given);
-  throw py::type_error(told("{}: expected {}, got {}", name, expectation<Type>(), brief));
+  throw py::type_error(formatted("{}: expected {}, got {}", name, expectation<Type>(), brief));
 }
 
 /// Offset of a field within the objects of a class. The class is known only at run time, so that pybind11's templates
@@ -249,8 +249,8 @@ py::class_<Struct> add_struct(py::module_& module) {
 template <class Structs>
 py::list as_dicts(const Structs& structs);
 
-/// The results in a struct, by name; lists of structs as lists of such dicts, enumerations in words, counts of faults
-/// by DeviceFault.
+/// The fields of a struct by name: lists of structs as lists of such dicts, enumerations in words, counts of faults by
+/// DeviceFault.
 template <class Struct>
 py::dict as_dict(const Struct& results) {
   py::dict dict;
@@ -281,20 +281,20 @@ py::list as_dicts(const Structs& structs) {
   return result;
 }
 
-/// What a function of calligraphy/_tables.py makes of results, given as as_dict() does.
+/// Passes results of as_dict() to a function of calligraphy/_tables.py.
 template <class... Arguments>
 py::object in_tables(const char* function, const Arguments&... arguments) {
   return py::module_::import("calligraphy._tables").attr(function)(arguments...);
 }
 
-/// What as_dict() gives, or the columns of rows of structs.
+/// Documentation of what as_dict() returns, or of the columns of rows of structs.
 template <class Struct>
 std::string fields_text(const std::string& what = "A dict") {
   std::string text = what;
   each_field<Struct>([&](const auto& field) {
-    std::string_view told = text_of(name_of<Struct>, field.name);
-    if (told.ends_with('.')) told.remove_suffix(1);
-    text += (text == what ? ": " : "; ") + std::string(field.name) + " (" + std::string(told) + ")";
+    std::string_view meaning = text_of(name_of<Struct>, field.name);
+    if (meaning.ends_with('.')) meaning.remove_suffix(1);
+    text += (text == what ? ": " : "; ") + std::string(field.name) + " (" + std::string(meaning) + ")";
   });
   return text + '.';
 }

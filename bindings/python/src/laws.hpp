@@ -23,7 +23,7 @@ inline std::shared_ptr<const py::object> kept(const py::object& object) {
           }};
 }
 
-/// Whether there is such an attribute. What else than AttributeError it raises is raised, which py::hasattr() hides.
+/// Whether there is such an attribute. Raises anything but AttributeError, which py::hasattr() would hide.
 inline bool has_attribute(const py::object& object, const char* name) {
   try {
     object.attr(name).operator py::object();
@@ -34,40 +34,40 @@ inline bool has_attribute(const py::object& object, const char* name) {
   }
 }
 
-/// Of a law, as recordings tell it.
+/// The name of a law in recordings.
 inline std::string name_of_law(const py::object& law) {
   if (has_attribute(law, "name")) return converted(Given<std::string>(law.attr("name")), "name");
   const py::object named = py::hasattr(law, "__name__") ? law : py::type::of(law);
   return py::str(named.attr("__name__"));
 }
 
-/// @throws error_already_set, which write_with_device() can give its result
-[[noreturn]] inline void refuse_answer(const char* expected, const py::object& answer) {
-  const py::object brief = py::module_::import("calligraphy._struct").attr("brief")(answer);
+/// @throws error_already_set, to which write_with_device() can attach its result
+[[noreturn]] inline void refuse_result(const char* expected, const py::object& given) {
+  const py::object brief = py::module_::import("calligraphy._struct").attr("brief")(given);
   const py::object type = py::module_::import("calligraphy._calligraphy").attr("InvalidValue");
-  InStep::raise(type(told("force: expected {}, got {}", expected, brief)));
+  InStep::raise(type(formatted("force: expected {}, got {}", expected, brief)));
 }
 
 /// An object with a method force(), or a function. Acquires the GIL on every call.
 class PythonGuidance final : public GuidanceLaw {
  public:
-  /// Of a class each renderer makes its own object; everything else is asked as it is.
+  /// Makes an object of a class for each renderer; anything else is called as it is.
   struct Factory {
     std::shared_ptr<const py::object> law;
     std::unique_ptr<GuidanceLaw> operator()(const GuidanceSetup&) const {
       const py::gil_scoped_acquire gil;
-      const bool makes = PyType_Check(asked(*law).ptr()) != 0;
+      const bool makes = PyType_Check(without_partial(*law).ptr()) != 0;
       return std::unique_ptr<GuidanceLaw>(new PythonGuidance(makes ? (*law)() : *law));
     }
   };
-  /// What a factory was given; null if the law is in C++. Requires the GIL.
+  /// What a factory was made from; null if the law is in C++. Requires the GIL.
   static py::object given(const GuidanceFactory& factory) {
     const auto* const own = factory.target<Factory>();
     return own != nullptr ? *own->law : py::object();
   }
   /// Whether an object can be a law.
   static bool accepts(const py::object& given) {
-    const py::object object = asked(given);
+    const py::object object = without_partial(given);
     if (py::hasattr(object, "force")) return PyCallable_Check(object.attr("force").ptr()) != 0;
     return PyType_Check(object.ptr()) == 0 && PyCallable_Check(object.ptr()) != 0;
   }
@@ -100,15 +100,15 @@ class PythonGuidance final : public GuidanceLaw {
   /// @throws error_already_set what the law raised; InvalidValue if it returned no force
   GuidanceTerms force(const GuidanceInput& input) override {
     const py::gil_scoped_acquire gil;
-    const py::object answer = force_(input);
+    const py::object result = force_(input);
     try {
-      const GuidanceTerms terms = py::isinstance<GuidanceTerms>(answer)
-                                      ? answer.cast<GuidanceTerms>()
-                                      : GuidanceTerms{point(answer, "force"), guidance_damper(input, input.share)};
+      const GuidanceTerms terms = py::isinstance<GuidanceTerms>(result)
+                                      ? result.cast<GuidanceTerms>()
+                                      : GuidanceTerms{point(result, "force"), guidance_damper(input, input.share)};
       if (terms.spring.allFinite() && terms.damper.allFinite() && std::isfinite(terms.normal)) return terms;
     } catch (const ValueError&) {  // the message below says more
     }
-    refuse_answer("(2,) finite numbers or GuidanceTerms", answer);
+    refuse_result("(2,) finite numbers or GuidanceTerms", result);
   }
 
  private:
@@ -117,15 +117,15 @@ class PythonGuidance final : public GuidanceLaw {
     if (begin_.is_none()) begin_ = {};
   }
 
-  /// What a functools.partial calls, for a class whose constructor takes arguments.
-  static py::object asked(const py::object& given) {
+  /// The callee of a functools.partial, such as a class whose constructor takes arguments.
+  static py::object without_partial(const py::object& given) {
     return py::isinstance(given, py::module_::import("functools").attr("partial")) ? given.attr("func") : given;
   }
 
   py::object law_, force_, begin_;
 };
 
-/// As HapticRenderer::update(). @throws what the guidance law raised, with its traceback, or why it gave no force
+/// Calls HapticRenderer::update(). @throws what the guidance law raised, with its traceback, or why it gave no force
 inline const HapticTick& updated(HapticRenderer& renderer, const DeviceState& state) {
   const HapticTick& tick = renderer.update(state);
   if (tick.status != TickStatus::bad_law || !renderer.law_error()) return tick;
@@ -137,7 +137,7 @@ inline const HapticTick& updated(HapticRenderer& renderer, const DeviceState& st
   }
 }
 
-/// The law of a session, a function in Python. Unlike a PythonLaw it lets its exceptions through: they end the session.
+/// The law of a session, a function in Python. Unlike a PythonLaw it passes exceptions on: they end the session.
 class SessionLaw {
  public:
   /// Requires the GIL.
@@ -145,13 +145,13 @@ class SessionLaw {
 
   Eigen::Vector3d operator()(const DeviceState& state) const {
     const py::gil_scoped_acquire gil;
-    const py::object answer = (*law_)(state);
+    const py::object result = (*law_)(state);
     try {
-      const Eigen::Vector3d force = vector(answer, "force");
+      const Eigen::Vector3d force = vector(result, "force");
       if (force.allFinite()) return force;
     } catch (const ValueError&) {  // the message below says more
     }
-    refuse_answer("(3,) finite numbers", answer);
+    refuse_result("(3,) finite numbers", result);
   }
 
   /// The function. Requires the GIL.

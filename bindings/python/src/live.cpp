@@ -8,14 +8,14 @@
 namespace calligraphy::python {
 namespace {
 
-bool program_ends = false;  ///< under the GIL
+bool exiting = false;  ///< protected by the GIL
 
 /// At exit all loops and sessions are stopped; daemon threads must not start new ones.
-void refuse_at_the_end() {
-  if (program_ends) throw Error("the program is exiting: no servo loop or session can be started");
+void refuse_at_exit() {
+  if (exiting) throw Error("the program is exiting: no servo loop or session can be started");
 }
 
-/// As warnings.warn(). @throws the warning, where a filter makes it an exception
+/// Calls warnings.warn(). @throws the warning, where a filter makes it an exception
 void warn(const std::string& text) {
   if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
@@ -57,7 +57,7 @@ class Loop {
   Loop& operator=(const Loop&) = delete;
 
   std::vector<std::string> start() {
-    refuse_at_the_end();
+    refuse_at_exit();
     if (changing_ || loop_->running())
       throw ValueError("the servo loop is already running: stop it before starting it again");
     PythonDevice::refuse_without_capabilities(device_.cast<HapticDevice&>());
@@ -131,13 +131,13 @@ class Loop {
     pid_t process;
   };
 
-  // Protected by the GIL, as is everything outside the loop. Those of a parent process are never released.
+  // Protected by the GIL, as is everything outside the loop. Loops of a parent process are never released.
   static std::set<Loop*> running;
   static std::vector<Orphan>& orphans;
 
   py::object device_, renderer_of_python_;  ///< kept alive
   const HapticRenderer* renderer_ = nullptr;
-  std::shared_ptr<PythonLaw> python_law_;  ///< null if the law is a renderer, unless that asks a law in Python
+  std::shared_ptr<PythonLaw> python_law_;  ///< null if the law is a renderer, unless that calls a law in Python
   std::unique_ptr<ServoLoop> loop_;
   std::unique_ptr<AtWork> at_work_;
   std::vector<std::string> warnings_;
@@ -154,8 +154,8 @@ pid_t process_of_sessions = 0;
 
 struct LiveSession {
   LiveSession() {
-    refuse_at_the_end();
-    if (process_of_sessions != getpid()) live_sessions = 0;  // those of a parent process
+    refuse_at_exit();
+    if (process_of_sessions != getpid()) live_sessions = 0;  // they were those of a parent process
     process_of_sessions = getpid();
     ++live_sessions;
   }
@@ -165,7 +165,7 @@ struct LiveSession {
 };
 
 void end_all() {
-  program_ends = true;
+  exiting = true;
   Loop::stop_all();
   while (live_sessions > 0 && process_of_sessions == getpid()) {
     const py::gil_scoped_release release;
@@ -193,7 +193,7 @@ LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOption
         if (!advice.empty()) warn(advice);
       }
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (program_ends) return false;
+      if (exiting) return false;
       if (!watch) return true;
       const py::object answer = (*watch)(view);
       const int goes_on = answer.is_none() ? 1 : PyObject_IsTrue(answer.ptr());
@@ -274,8 +274,8 @@ void add_live(py::module_& module) {
   module.def("write_with_device", &write_live, "page"_a, "device"_a, "options"_a = LiveOptions{},
              "watch"_a = py::none(),
              "+ `watch` is called with a LiveView about 50 times per second. The warnings, and the device's advice "
-             "whenever it changes, are issued by warnings.warn() too. Ends likewise on Ctrl-C or an "
-             "exception of `watch` or of a law of the options, which has the LiveResult as its attribute `result`.");
+             "whenever it changes, are issued by warnings.warn() too. Also ends on Ctrl-C, or on an "
+             "exception of `watch` or of a law, which has the LiveResult as its attribute `result`.");
   // At exit no force may remain, nor threads that would call into a finalised interpreter.
   py::module_::import("atexit").attr("register")(py::cpp_function(&end_all));
 }

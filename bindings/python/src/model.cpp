@@ -105,7 +105,8 @@ void add_model(py::module_& module) {
            [](const TypicalStroke& self) -> py::tuple {
              return py::make_tuple(py::module_::import("calligraphy").attr("typical_stroke"), py::make_tuple(self.id));
            })
-      .def("__repr__", [](const TypicalStroke& self) { return told("TypicalStroke({}, {})", self.id, self.name); });
+      .def("__repr__",
+           [](const TypicalStroke& self) { return formatted("TypicalStroke({}, {})", self.id, self.name); });
   module.def("typical_strokes", [] {
     py::typing::List<TypicalStroke> result;
     for (const TypicalStroke& stroke : typical_strokes()) {
@@ -146,7 +147,7 @@ void add_model(py::module_& module) {
           "ink", [](const Stroke& self) { return self.ink == nullptr ? std::nullopt : std::optional(*self.ink); },
           "StrokeInk, copied, or None")
       .def("__repr__", [](const Stroke& self) {
-        return told("Stroke({}, {} control points)", self.type->name, self.control_points.size());
+        return formatted("Stroke({}, {} control points)", self.type->name, self.control_points.size());
       });
 
   add_ink(module);
@@ -182,7 +183,7 @@ void add_model(py::module_& module) {
           "ink", [](const Character& self) { return self.physics.ink; }, "StrokeInk of each stroke, or empty; copied")
       .def("strokes", &strokes_of, "The strokes in writing order.")
       .def("__repr__", [](const Character& self) {
-        return told("Character({}, {} strokes)", encode_utf8(self.code), self.stroke_count());
+        return formatted("Character({}, {} strokes)", encode_utf8(self.code), self.stroke_count());
       });
 
   module.def(
@@ -264,7 +265,7 @@ void add_model(py::module_& module) {
       .def("coordinate_error", &CharacterSet::coordinate_error)
       .def("list", released(+[](const CharacterSet& self) { return self.list(); }))
       .def("check", released(+[](const CharacterSet& self) { self.check(); }))
-      .def("__repr__", [](const CharacterSet& self) { return told("CharacterSet({} characters)", self.size()); });
+      .def("__repr__", [](const CharacterSet& self) { return formatted("CharacterSet({} characters)", self.size()); });
 
   add_struct<Placement>(module).def(
       "to_page",

@@ -10,12 +10,12 @@ namespace {
 template <class Exception>
 py::handle type_of_error;
 
-/// That of a FileError for a file that does not exist.
+/// The Python class of a FileError for a file that does not exist.
 py::handle file_not_found;
 
 py::handle new_type(const char* name, const py::list& bases, const char* documentation) {
   const std::string full = std::string("calligraphy._calligraphy.") + name;
-  py::dict members;  // OSError shows itself by errno and filename, if it has them
+  py::dict members;  // str() of an OSError shows errno and filename, if it has them
   members["__str__"] = py::handle(PyExc_BaseException).attr("__str__");
   const py::handle type =
       PyErr_NewExceptionWithDoc(full.c_str(), documentation, py::tuple(bases).ptr(), members.ptr());

@@ -26,7 +26,7 @@ Recording recording_of(double rate, const ArrayLike& samples, std::uint32_t page
     RecordedSample& sample = result.samples[i];
     std::memcpy(static_cast<void*>(&sample), rows.data(static_cast<py::ssize_t>(i)), sizeof sample);
     if (sample.state > InteractionState::writing || sample.status > TickStatus::bad_law) {
-      throw ValueError(told("samples[{}]: state {}, status {}: no such state or status", i,
+      throw ValueError(formatted("samples[{}]: state {}, status {}: no such state or status", i,
                             static_cast<int>(sample.state), static_cast<int>(sample.status)));
     }
   }
@@ -40,7 +40,7 @@ py::array samples_of(const py::object& self) {
   return result;
 }
 
-/// The function without the GIL; its options report the progress to an additional last argument.
+/// Runs the function without the GIL; an additional last argument is called with the progress.
 template <class Result, class... Arguments>
 auto reporting(Result (*function)(Arguments...)) {
   return [function](std::remove_cvref_t<Arguments>... given, const Progress& progress) {
@@ -126,7 +126,8 @@ void add_practice(py::module_& module) {
       [](const ArrayLike& values, const std::vector<std::uint64_t>& draws) {
         const Doubles numbers = doubles(values, "values");
         if (static_cast<std::size_t>(numbers.size()) != draws.size()) {
-          throw ValueError(told("draws: expected one for each of {} values, got {}", numbers.size(), draws.size()));
+          throw ValueError(
+              formatted("draws: expected one for each of {} values, got {}", numbers.size(), draws.size()));
         }
         std::vector<DrawnValue> drawn(draws.size());
         for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {numbers.data()[i], draws[i]};

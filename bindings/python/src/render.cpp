@@ -14,8 +14,8 @@ auto mapped(Eigen::Vector3d (MotionMapping::*function)(const Eigen::Vector3d&) c
   };
 }
 
-/// One table for a tick as an object and for the columns of a whole trace, whose rows are HapticTick as in memory.
-/// Of the contact on the stroke some members are columns.
+/// The fields of a tick, as properties of an object and as columns of a trace, whose rows are HapticTick as in memory.
+/// Some members of the contact are columns of their own.
 class TickColumns {
  public:
   explicit TickColumns(py::module_& module) : type_(module, "HapticTick") {
@@ -96,9 +96,9 @@ void add_render(py::module_& module) {
       [](const GuidanceInput& input, double share) { return array_of(guidance_damper(input, share)); }, "input"_a,
       "share"_a);
   add_struct<GuidanceOptions>(module).attr("force").attr("__doc__") =
-      "how it depends on where the pen is: linear, saturating, wang2006 or a law of your own (docs/python.md), a class "
-      "with a method force(GuidanceInput) or a function, which returns (2,) [N], the spring beside guidance_damper(), "
-      "or GuidanceTerms";
+      "how the force depends on where the pen is: linear, saturating, wang2006 or a law of your own (docs/python.md): "
+      "a class with a method force(GuidanceInput), or a function. It returns GuidanceTerms, or the spring (2,) [N], "
+      "which guidance_damper() damps";
   add_struct<RendererOptions>(module)
       .def_static("wang2006", &RendererOptions::wang2006)
       .def_static("for_device", &RendererOptions::for_device, "capabilities"_a, "scale"_a = 1.0)
@@ -121,7 +121,7 @@ void add_render(py::module_& module) {
   const TickColumns columns(module);
 
   py::class_<HapticRenderer>(module, "HapticRenderer", py::is_final(),
-                             "+ One that a running ServoLoop or another thread uses raises Error.")
+                             "+ Raises Error while a running ServoLoop or another thread uses it.")
       .def(py::init<std::vector<PlacedCharacter>, const MotionMapping&, const Capabilities&, const RendererOptions&>(),
            "page"_a, "mapping"_a, "capabilities"_a, "options"_a = RendererOptions{})
       .def(
@@ -146,7 +146,7 @@ void add_render(py::module_& module) {
                              [](const HapticRenderer& self) { return std::vector<PlacedCharacter>(self.page()); })
       .def("max_force_step", &HapticRenderer::max_force_step)
       .def("__repr__", [](const HapticRenderer& self) {
-        return told("HapticRenderer(page of {} at {:g} Hz)", self.page().size(), self.options().servo_rate);
+        return formatted("HapticRenderer(page of {} at {:g} Hz)", self.page().size(), self.options().servo_rate);
       });
 
   module.def("critical_stiffness", released(&critical_stiffness), "loop"_a);
