@@ -17,7 +17,7 @@ export { constants };
  * @typedef {ReturnType<typeof bind>} Library what load() returns
  * @typedef {Values<Structs["drawn_stroke"]>} Drawn what a pen-down wrote
  * @typedef {Values<Structs["remark"]> & {text: (language?: string) => string}} Remark and what it says, "en" or "zh"
- * @typedef {{drawn: Drawn[], remarks: Remark[]}} Match
+ * @typedef {{drawn: Drawn[], remarks: Remark[], accepted: number}} Match `accepted`: the index of the form
  * @typedef {Values<Structs["stroke_score"]>} StrokeScore
  * @typedef {Values<Structs["pen_down_score"]>} PenDownScore
  * @typedef {Values<Structs["character_score"]>} CharacterScore
@@ -259,10 +259,11 @@ function bind(module) {
    * @param {Handle} page
    * @param {number} character
    * @param {(number[][] | Float64Array)[]} paths of each pen-down: points [x, y], or x and y of each point [m, page]
-   * @param {number} [tolerance] such as constants.TOLERANCE_LENIENT
+   * @param {{tolerance?: number, forms?: Handle, others?: Handle}} [options] such as constants.TOLERANCE_LENIENT; a
+   *   set, of which every form of the character is accepted; an index, of which other characters are remarked
    * @returns {Match}
    */
-  function match(page, character, paths, tolerance = constants.TOLERANCE_NORMAL) {
+  function match(page, character, paths, { tolerance = constants.TOLERANCE_NORMAL, forms = 0, others = 0 } = {}) {
     const isPath = (/** @type {unknown} */ path) => path instanceof Float64Array
       || (Array.isArray(path) && path.every(Array.isArray));
     if (!(Array.isArray(paths) && paths.every(isPath))) {
@@ -270,7 +271,8 @@ function bind(module) {
     }
     const coordinates = paths.map((path) => (Array.isArray(path) ? path.flatMap(([x, y]) => [x, y]) : [...path]));
     const points = coordinates.flat(), sizes = coordinates.map((path) => path.length / 2);
-    return readMatch(library.match_strokes(page, character, points, sizes, paths.length, tolerance), paths.length);
+    const handle = library.match_strokes(page, character, points, sizes, paths.length, tolerance, forms, others);
+    return readMatch(handle, paths.length);
   }
 
   /**
@@ -314,6 +316,7 @@ function bind(module) {
                               (i, each) => library.match_remark(handle, i, each));
       return {
         drawn,
+        accepted: library.match_accepted(handle),
         remarks: remarks.map((remark, i) => {
           const texts = new Map(languages().map((code) => [code, library.match_remark_text(handle, i, code)]));
           const text = (language = "en") => texts.get(language) ?? refuseLanguage(language, texts);

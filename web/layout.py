@@ -27,7 +27,8 @@ RESULTS = {
 PARAMETERS = {
     "double": "Float64", "int32_t": "Int32", "uint32_t": "Uint32", "size_t": "Uint32", "void*": "handle",
     "const char*": "text", "const double*": "read Float64", "double*": "write Float64",
-    "const uint32_t*": "read Uint32", "int32_t*": "write Int32", "const void*": "read Uint8", "char*": "write Uint8",
+    "const uint32_t*": "read Uint32", "uint32_t*": "write Uint32", "int32_t*": "write Int32",
+    "const void*": "read Uint8", "char*": "write Uint8",
 }
 # Types of TypeScript that are the same for every header.
 TYPES = """\

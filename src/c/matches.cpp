@@ -10,10 +10,12 @@ namespace calligraphy::c {
 namespace {
 
 /// The pen-downs in the square of the character [em].
-std::vector<PenPath> paths_in_square(const double* points, std::span<const std::uint32_t> sizes,
+std::vector<PenPath> paths_in_square(const double* points, const std::uint32_t* sizes, std::size_t count,
                                      const Placement& placement) {
   std::vector<PenPath> paths;
-  for (const std::uint32_t size : sizes) {
+  if (count == 0) return paths;
+  target(points, "points");
+  for (const std::uint32_t size : std::span(&target(sizes, "path_sizes"), count)) {
     PenPath& path = paths.emplace_back();
     for (std::uint32_t i = 0; i < size; ++i, points += 2) {
       path.push_back((Point(points[0], points[1]) - placement.origin) / placement.em);
@@ -28,20 +30,53 @@ std::vector<PenPath> paths_in_square(const double* points, std::span<const std::
 using namespace calligraphy;
 using namespace calligraphy::c;
 
+calligraphy_status calligraphy_index_create(const calligraphy_set* set, calligraphy_index** index) {
+  return guarded([&] {
+    const CharacterSet& characters = object<CharacterSet>(set);
+    target(index, "index");
+    hand_out(index, std::make_shared<CharacterIndex>(characters));
+  });
+}
+
+calligraphy_status calligraphy_index_recognise(const calligraphy_index* index, const double* points,
+                                               const uint32_t* path_sizes, size_t path_count, uint32_t* codes,
+                                               double* distances, size_t capacity, size_t* count) {
+  return guarded([&] {
+    const CharacterIndex& characters = object<CharacterIndex>(index);
+    target(count, "count");
+    if (capacity > 0) target(codes, "codes"), target(distances, "distances");
+    const std::vector<RecognisedCharacter> found =
+        characters.recognise(paths_in_square(points, path_sizes, path_count, {Point::Zero(), 1.0}), capacity);
+    *count = found.size();
+    for (std::size_t i = 0; i < found.size(); ++i) codes[i] = found[i].code, distances[i] = found[i].distance;
+  });
+}
+
 calligraphy_status calligraphy_match_strokes(const calligraphy_page* page, int32_t character, const double* points,
                                              const uint32_t* path_sizes, size_t path_count, int32_t tolerance,
+                                             const calligraphy_set* forms, const calligraphy_index* others,
                                              calligraphy_match** match) {
   return guarded([&] {
     const PlacedCharacter& placed = item("character", object<PracticePage>(page).characters, character);
-    target(match, "match");
-    std::vector<PenPath> paths;
-    if (path_count > 0) {
-      target(points, "points");
-      paths = paths_in_square(points, {&target(path_sizes, "path_sizes"), path_count}, placed.placement);
+    const auto tolerances = tolerances_of<JudgeTolerances>(tolerance);
+    std::vector<Character> accepted;
+    if (forms) {
+      for (const StoredCharacter& form : object<CharacterSet>(forms).forms(placed.character.code)) {
+        accepted.push_back(form.character());
+      }
+      if (accepted.empty()) find_character(object<CharacterSet>(forms), placed.character.code);
+    } else {
+      accepted.push_back(placed.character);
     }
-    hand_out(match, std::make_shared<MatchObject>(
-                        match_strokes(placed.character, paths, tolerances_of<JudgeTolerances>(tolerance))));
+    const CharacterIndex* const index = others ? &object<CharacterIndex>(others) : nullptr;
+    target(match, "match");
+    const std::vector<PenPath> paths = paths_in_square(points, path_sizes, path_count, placed.placement);
+    hand_out(match, std::make_shared<MatchObject>(match_strokes(accepted, paths, tolerances, index)));
   });
+}
+
+calligraphy_status calligraphy_match_accepted(const calligraphy_match* match, int32_t* accepted) {
+  return guarded([&] { target(accepted, "accepted") = object<MatchObject>(match).result.accepted; });
 }
 
 calligraphy_status calligraphy_match_drawn(const calligraphy_match* match, int32_t path,

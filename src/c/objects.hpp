@@ -12,6 +12,7 @@
 #include <calligraphy/devices/pointer_device.hpp>
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/judge/character_index.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/character_set.hpp>
@@ -110,6 +111,8 @@ template <>
 inline constexpr Kind kind_of<Scores> = Kind::score;
 template <>
 inline constexpr Kind kind_of<StrokeObject> = Kind::stroke;
+template <>
+inline constexpr Kind kind_of<CharacterIndex> = Kind::index;
 
 /// A character of a set in its standard order. @throws Refusal if the set does not have it, FormatError if it is
 /// damaged

@@ -30,6 +30,7 @@ struct Everything {
   Owned<calligraphy_device> host = host_device(capabilities), pointer;
   Owned<calligraphy_servo> servo = servo_of(device.get(), renderer.get());
   Owned<calligraphy_match> match;
+  Owned<calligraphy_index> index;
   Owned<calligraphy_recording> recording;
   Owned<calligraphy_score> score;
   Owned<calligraphy_renderer> guided;  ///< by a law that was told of a stroke
@@ -45,9 +46,12 @@ struct Everything {
             CALLIGRAPHY_OK);
     pointer.reset(pointer_handle);
     calligraphy_match* match_handle = nullptr;
-    REQUIRE(calligraphy_match_strokes(page.get(), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL,
-                                      &match_handle) == CALLIGRAPHY_OK);
+    REQUIRE(calligraphy_match_strokes(page.get(), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL, nullptr,
+                                      nullptr, &match_handle) == CALLIGRAPHY_OK);
     match.reset(match_handle);
+    calligraphy_index* index_handle = nullptr;
+    REQUIRE(calligraphy_index_create(set.get(), &index_handle) == CALLIGRAPHY_OK);
+    index.reset(index_handle);
     calligraphy_recording* recording_handle = nullptr;
     REQUIRE(calligraphy_recording_create(page.get(), 0.0, &recording_handle) == CALLIGRAPHY_OK);
     recording.reset(recording_handle);
@@ -92,6 +96,7 @@ std::vector<std::pair<std::string, void*>> handles_of(const Everything& all) {
           {"match", all.match.get()},
           {"recording", all.recording.get()},
           {"score", all.score.get()},
+          {"index", all.index.get()},
           {"stroke", const_cast<calligraphy_active_stroke*>(all.stroke)}};
 }
 
@@ -123,6 +128,7 @@ std::vector<HandleCall> handle_calls(Everything& all) {
   static calligraphy_renderer* renderer;
   static calligraphy_servo* servo;
   static calligraphy_match* match;
+  static calligraphy_index* index;
   static calligraphy_recording* recording;
   static calligraphy_score* score;
   static auto character_score = sized<calligraphy_character_score>();
@@ -135,6 +141,7 @@ std::vector<HandleCall> handle_calls(Everything& all) {
   using Device = calligraphy_device;
   using Servo = calligraphy_servo;
   using Match = calligraphy_match;
+  using Index = calligraphy_index;
   using Recording = calligraphy_recording;
   using Score = calligraphy_score;
   return {
@@ -155,8 +162,14 @@ std::vector<HandleCall> handle_calls(Everything& all) {
        }},
       {"match_strokes", "page",
        [](void* h) {
-         return calligraphy_match_strokes(as<Page>(h), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL, &match);
+         return calligraphy_match_strokes(as<Page>(h), 0, nullptr, nullptr, 0, 0, nullptr, nullptr, &match);
        }},
+      {"index_create", "set", [](void* h) { return calligraphy_index_create(as<Set>(h), &index); }},
+      {"index_recognise", "index",
+       [](void* h) {
+         return calligraphy_index_recognise(as<Index>(h), nullptr, nullptr, 0, nullptr, nullptr, 0, &count);
+       }},
+      {"match_accepted", "match", [](void* h) { return calligraphy_match_accepted(as<Match>(h), &number); }},
       {"recording_create", "page",
        [](void* h) { return calligraphy_recording_create(as<Page>(h), 1000.0, &recording); }},
       {"device_point", "device",
@@ -273,15 +286,15 @@ TEST_CASE("as many handles as there may be, and one more") {
   std::vector<Owned<calligraphy_match>> matches;
   calligraphy_match* match = nullptr;
   calligraphy_status status;
-  while ((status = calligraphy_match_strokes(page.get(), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL,
-                                             &match)) == CALLIGRAPHY_OK) {
+  while ((status = calligraphy_match_strokes(page.get(), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL, nullptr,
+                                             nullptr, &match)) == CALLIGRAPHY_OK) {
     matches.emplace_back(match);
   }
   CHECK(status == CALLIGRAPHY_OUT_OF_MEMORY);
   CHECK(matches.size() > 65'000);
   matches.pop_back();
-  REQUIRE(calligraphy_match_strokes(page.get(), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL, &match) ==
-          CALLIGRAPHY_OK);
+  REQUIRE(calligraphy_match_strokes(page.get(), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL, nullptr, nullptr,
+                                    &match) == CALLIGRAPHY_OK);
   matches.emplace_back(match);
 }
 
@@ -411,6 +424,12 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
     return calligraphy_page_polyline(all.page.get(), character, index, shape, tolerance, points, 1, &count);
   };
   const auto no_law = sized<calligraphy_guidance_functions>();
+  const auto matched = [&](const double* from, const std::uint32_t* sizes, const void* forms = nullptr,
+                           const void* others = nullptr) {
+    return calligraphy_match_strokes(all.page.get(), 0, from, sizes, 1, normal,
+                                     static_cast<const calligraphy_set*>(forms),
+                                     static_cast<const calligraphy_index*>(others), &match);
+  };
   const auto create_with = [&](std::int32_t law, const calligraphy_guidance_functions* functions) {
     auto options = all.options;
     options.guidance_law = law;
@@ -543,12 +562,12 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
       {"hint", value, "language \"xx\": expected one of en, ",
        [&] { return calligraphy_hint_text(&all.tick, "xx", hint, sizeof hint); }},
       {"step", value, "now = nan s", [&] { return calligraphy_servo_step(all.servo.get(), not_a_number, nullptr); }},
-      {"match", value, "points is null",
-       [&] { return calligraphy_match_strokes(all.page.get(), 0, nullptr, &one_point, 1, normal, &match); }},
-      {"match", value, "path_sizes is null",
-       [&] { return calligraphy_match_strokes(all.page.get(), 0, points, nullptr, 1, normal, &match); }},
-      {"match", value, "not finite",
-       [&] { return calligraphy_match_strokes(all.page.get(), 0, nan, &one_point, 1, normal, &match); }},
+      {"match", value, "points is null", [&] { return matched(nullptr, &one_point); }},
+      {"match", value, "path_sizes is null", [&] { return matched(points, nullptr); }},
+      {"match", value, "not finite", [&] { return matched(nan, &one_point); }},
+      {"forms", CALLIGRAPHY_INVALID_HANDLE, "set = 0x", [&] { return matched(points, &one_point, all.page.get()); }},
+      {"others", CALLIGRAPHY_INVALID_HANDLE, "index = 0x",
+       [&] { return matched(points, &one_point, nullptr, all.page.get()); }},
       {"remark", value, "language \"tlh\": expected one of en, zh",
        [&] { return calligraphy_match_remark_text(all.match.get(), 0, "tlh", &text); }},
       {"remark", value, "text is null",

@@ -375,7 +375,7 @@ TEST_CASE("pen-downs are matched as in C++, with remarks for people") {
   }
   calligraphy_match* handle = nullptr;
   REQUIRE(calligraphy_match_strokes(page.get(), 0, points.data(), sizes.data(), sizes.size(),
-                                    CALLIGRAPHY_TOLERANCE_NORMAL, &handle) == CALLIGRAPHY_OK);
+                                    CALLIGRAPHY_TOLERANCE_NORMAL, nullptr, nullptr, &handle) == CALLIGRAPHY_OK);
   const Owned<calligraphy_match> match(handle);
   const MatchResult expected = match_strokes(placed.character, paths);
   auto drawn = sized<calligraphy_drawn_stroke>();
@@ -430,6 +430,62 @@ TEST_CASE("pen-downs are matched as in C++, with remarks for people") {
   }
   CHECK(calligraphy_match_remark(match.get(), count, &remark) == CALLIGRAPHY_INVALID_VALUE);
   CHECK(calligraphy_match_remark_text(match.get(), count, "zh", &reason) == CALLIGRAPHY_INVALID_VALUE);
+}
+
+TEST_CASE("several forms are accepted, and other characters noticed, as in C++") {
+  const Character ten = built_in_characters().at(U'十');
+  std::vector<StrokeInput> swapped;
+  for (const Stroke& stroke : strokes(ten)) swapped.insert(swapped.begin(), input_of(stroke));
+  CharacterList list;
+  list.characters = {ten, make_character(U'十', swapped), built_in_characters().at(U'二')};
+  list.characters[1].order = "swapped";
+  const std::vector<std::byte> bytes = encode_character_set(list);
+  calligraphy_set* set = nullptr;
+  REQUIRE(calligraphy_set_from_memory(bytes.data(), bytes.size(), nullptr, &set) == CALLIGRAPHY_OK);
+  const Owned<calligraphy_set> forms(set);
+  calligraphy_index* index = nullptr;
+  REQUIRE(calligraphy_index_create(forms.get(), &index) == CALLIGRAPHY_OK);
+  const Owned<calligraphy_index> others(index);
+  const auto page = page_of("十");
+  const Placement place = page_in_cpp(U"十").characters.front().placement;
+  const auto match = [&](const std::vector<Point>& in_em, const calligraphy_set* of, const calligraphy_index* beside) {
+    std::vector<double> points;
+    for (const Point& point : in_em) {
+      const Point there = place.to_page(point);
+      points.insert(points.end(), {there.x(), there.y()});
+    }
+    const std::uint32_t sizes[] = {2, 2};
+    calligraphy_match* handle = nullptr;
+    REQUIRE(calligraphy_match_strokes(page.get(), 0, points.data(), sizes, 2, CALLIGRAPHY_TOLERANCE_NORMAL, of, beside,
+                                      &handle) == CALLIGRAPHY_OK);
+    return Owned<calligraphy_match>(handle);
+  };
+  const auto kinds = [](const Owned<calligraphy_match>& of) {
+    std::int32_t count = 0, accepted = 0;
+    REQUIRE(calligraphy_match_remark_count(of.get(), &count) == CALLIGRAPHY_OK);
+    REQUIRE(calligraphy_match_accepted(of.get(), &accepted) == CALLIGRAPHY_OK);
+    std::vector<std::int32_t> found = {accepted};
+    auto remark = sized<calligraphy_remark>();
+    for (std::int32_t i = 0; i < count; ++i) {
+      REQUIRE(calligraphy_match_remark(of.get(), i, &remark) == CALLIGRAPHY_OK);
+      found.push_back(remark.kind);
+    }
+    return found;
+  };
+  using Kinds = std::vector<std::int32_t>;  // after the index of the accepted form
+  const std::vector<Point> down_first = {{0.5, 0.9}, {0.5, 0.1}, {0.1, 0.5}, {0.9, 0.5}};
+  const std::vector<Point> two = {{0.2, 0.75}, {0.8, 0.75}, {0.05, 0.1}, {0.95, 0.1}};
+  CHECK(kinds(match(down_first, nullptr, nullptr)) == Kinds{0, CALLIGRAPHY_REMARK_ORDER});
+  CHECK(kinds(match(down_first, forms.get(), nullptr)) == Kinds{1});
+  CHECK(kinds(match(two, nullptr, others.get())) == Kinds{0, CALLIGRAPHY_REMARK_CHARACTER});
+  std::uint32_t codes[3];
+  double distances[3];
+  std::size_t count = 0;
+  const std::uint32_t sizes[] = {2, 2};
+  const double lines[] = {0.2, 0.75, 0.8, 0.75, 0.05, 0.1, 0.95, 0.1};
+  REQUIRE(calligraphy_index_recognise(others.get(), lines, sizes, 2, codes, distances, 3, &count) == CALLIGRAPHY_OK);
+  CHECK(count == 2);
+  CHECK((codes[0] == U'二' && codes[1] == U'十' && distances[0] < distances[1]));
 }
 
 TEST_CASE("the languages are those of C++") {

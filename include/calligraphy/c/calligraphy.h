@@ -666,16 +666,38 @@ CALLIGRAPHY_API calligraphy_status calligraphy_servo_read_state(const calligraph
 
 // What was written.
 
+/// The characters of a set, in all their forms, prepared for comparison with a pen. Any number of threads may use it.
+typedef struct calligraphy_index calligraphy_index;
+
+/// An index of all characters of a set: some 64 bytes a stroke. CALLIGRAPHY_FORMAT_ERROR if one is damaged.
+CALLIGRAPHY_API calligraphy_status calligraphy_index_create(const calligraphy_set* set, calligraphy_index** index);
+
+/// Which characters the pen-downs resemble, the nearest first, and how far each is from them [em]; pen-downs as for
+/// calligraphy_match_strokes(), in any unit. Both arrays take `capacity` items; `count`: how many were found, at most
+/// `capacity`.
+CALLIGRAPHY_API calligraphy_status calligraphy_index_recognise(const calligraphy_index* index, const double* points,
+                                                               const uint32_t* path_sizes, size_t path_count,
+                                                               uint32_t* codes, double* distances, size_t capacity,
+                                                               size_t* count);
+
 /// Which stroke each pen-down wrote, with remarks.
 typedef struct calligraphy_match calligraphy_match;
 
 /// Matches pen-downs with the strokes of a character of a page (docs/practice.md). `points`: x and y of each point of
 /// one pen-down after the other [m, page]; `path_sizes`: the number of points of each of the `path_count` pen-downs. An
-/// error of position or size is not a mistake. `tolerance`: a calligraphy_tolerance.
+/// error of position or size is not a mistake. `tolerance`: a calligraphy_tolerance, which decides how sure a remark
+/// must be. `forms`: accept every order and form that this set has of the character; null: only that of the page.
+/// `others`: also remark that another character of this index was written; null: do not.
 CALLIGRAPHY_API calligraphy_status calligraphy_match_strokes(const calligraphy_page* page, int32_t character,
                                                              const double* points, const uint32_t* path_sizes,
                                                              size_t path_count, int32_t tolerance,
+                                                             const calligraphy_set* forms,
+                                                             const calligraphy_index* others,
                                                              calligraphy_match** match);
+
+/// Index of the form as which the writing was read, among those that the set has of the character; 0 without a set.
+/// Strokes of the match are those of this form.
+CALLIGRAPHY_API calligraphy_status calligraphy_match_accepted(const calligraphy_match* match, int32_t* accepted);
 
 /// Direction of a pen-down along what it wrote.
 typedef enum calligraphy_direction {

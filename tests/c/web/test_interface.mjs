@@ -93,13 +93,13 @@ test("what no function could be given is refused before it is called", () => {
     [() => library.page_polyline(page, 0, 0, constants.PATH, 0, new Float64Array(7), 4), /at least 8 elements, not 7/],
     [() => library.device_write(device, [0, 0]), /force is of type Array, expected at least 3 elements, not 2/],
     [() => library.set_from_memory(new Uint8Array(4), 5, null), /at least 5 elements, not 4/],
-    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [2, 1], 2, 0), /points .* at least 6 elements, not 4/],
-    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [2], 2, 0), /path_sizes .* at least 2 elements, not 1/],
-    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [3, -1], 2, 0), /path_sizes .* an integer from 0/],
-    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [3], 1, 0), /points .* at least 6 elements/],
-    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [-1], 1, 0), /path_sizes .* an integer from 0/],
-    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [1.5], 1, 0), /path_sizes .* an integer from 0/],
-    [() => library.match_strokes(page, 0, [0, "1", 1, 1], [2], 1, 0), /points .* a number/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [2, 1], 2, 0, null, null), /points .* at least 6 elements, not 4/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [2], 2, 0, null, null), /path_sizes .* at least 2 elements, not 1/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [3, -1], 2, 0, null, null), /path_sizes .* an integer from 0/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [3], 1, 0, null, null), /points .* at least 6 elements/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [-1], 1, 0, null, null), /path_sizes .* an integer from 0/],
+    [() => library.match_strokes(page, 0, [0, 0, 1, 1], [1.5], 1, 0, null, null), /path_sizes .* an integer from 0/],
+    [() => library.match_strokes(page, 0, [0, "1", 1, 1], [2], 1, 0, null, null), /points .* a number/],
     [() => library.match(page, 0, [[0.1, 0.1], [0.1, 0.2]]), /match: expected an array of pen-downs/],
     [() => library.match(page, 0), /match: expected an array of pen-downs/],
     [() => library.page_mapping(page, constants.DESK, "1", mappingOnDesk), /scale is "1", expected a number/],
@@ -192,11 +192,19 @@ test("strokes are matched", () => {
   assert.deepEqual(library.match(cross, 0, asPolylines).remarks, []);
   const withPressure = [across, down].map((path) => path.map(([x, y]) => [x, y, 0.5]));
   assert.deepEqual(library.match(cross, 0, withPressure).remarks, []);
-  const first = library.match_strokes(cross, 0, across.flat(), [2, 2], 1, constants.TOLERANCE_NORMAL);
+  const first = library.match_strokes(cross, 0, across.flat(), [2, 2], 1, constants.TOLERANCE_NORMAL, null, null);
   assert.equal(library.match_remark_count(first), 1);
-  const nothing = library.match_strokes(cross, 0, [], null, 0, constants.TOLERANCE_NORMAL);
+  const nothing = library.match_strokes(cross, 0, [], null, 0, constants.TOLERANCE_NORMAL, null, null);
   assert.equal(library.match_remark_count(nothing), 2);  // both strokes are missing
   refuses(() => library.match(cross, 3, [down]), constants.INVALID_VALUE, /character = 3/);
+  const set = library.set_built_in(), others = library.index_create(set);
+  const two = [[[0.068, 0.07], [0.092, 0.07]], [[0.062, 0.045], [0.098, 0.045]]];
+  const other = library.match(cross, 0, two, { tolerance: constants.TOLERANCE_STRICT, forms: set, others });
+  assert.equal(other.accepted, 0);
+  assert.deepEqual(other.remarks.map((remark) => String.fromCodePoint(remark.other_character)), ["二"]);
+  const codes = new Uint32Array(2), distances = new Float64Array(2);
+  assert.equal(library.index_recognise(others, two.flat(2), [2, 2], 2, codes, distances, 2), 2);
+  assert.equal(String.fromCodePoint(codes[0]), "二");
 });
 
 /** A recording of a page on which a pen goes along some of the strokes, from their start or from their end. */
