@@ -32,6 +32,8 @@ def values(kind, name):
         return st.sampled_from(["linear", "saturating", "wang2006"])
     if type(default) in RECORDS:
         return records(type(default))
+    if type(default) is cal.Character:
+        return st.sampled_from([default, *(cal.built_in_characters()[code] for code in "永一人")])
     if hasattr(type(default), "__members__"):
         return st.sampled_from(list(type(default).__members__.values()))
     if isinstance(default, np.ndarray) and default.shape == (4, 4):
@@ -219,7 +221,7 @@ def _number(value):
     "owner, name, make",
     [
         (cal.PracticePage(), "characters", lambda: cal.PlacedCharacter(cal.built_in_characters()["永"])),
-        (cal.MatchResult(), "remarks", lambda: cal.StrokeRemark(reason="so long that it is kept elsewhere")),
+        (cal.MatchResult(), "remarks", lambda: cal.StrokeRemark(evidence=0.5)),
         (cal.CharacterList(), "characters", lambda: cal.built_in_characters()["永"]),
     ],
     ids=lambda value: value if isinstance(value, str) else type(value).__name__,
@@ -342,7 +344,7 @@ def test_the_repr_of_long_values_is_abbreviated_with_their_length():
     assert "attraction_factors=[0.0, 1.0], elements='', ink=None)" in repr(cal.StrokeInput(1, [[0, 0], [1, 1]], [0.0, 1.0]))
     licence = repr(cal.Provenance(licence_text="word " * 1000))
     assert "licence_text='word word" in licence and "... 5000 characters in all" in licence and len(licence) < 200
-    match = cal.MatchResult(remarks=[cal.StrokeRemark(reason="x")])
+    match = cal.MatchResult(remarks=[cal.StrokeRemark()])
     score = repr(cal.CharacterScore(character="永", match=match))
     assert score.startswith("CharacterScore(character='永', time=nan") and "remarks=[StrokeRemark(kind=" in score
 
