@@ -568,7 +568,7 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
       {"forms", CALLIGRAPHY_INVALID_HANDLE, "set = 0x", [&] { return matched(points, &one_point, all.page.get()); }},
       {"others", CALLIGRAPHY_INVALID_HANDLE, "index = 0x",
        [&] { return matched(points, &one_point, nullptr, all.page.get()); }},
-      {"remark", value, "language \"tlh\": expected one of en, zh",
+      {"remark", value, "language \"tlh\": expected one of ",
        [&] { return calligraphy_match_remark_text(all.match.get(), 0, "tlh", &text); }},
       {"remark", value, "text is null",
        [&] { return calligraphy_match_remark_text(all.match.get(), 0, nullptr, nullptr); }},

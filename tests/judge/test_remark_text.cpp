@@ -330,7 +330,7 @@ TEST_CASE("each language has every text, and fills in nothing that English does 
       CHECK((!language.text(key).empty() && std::includes(there.begin(), there.end(), here.begin(), here.end())));
     }
   }
-  CHECK_THROWS_WITH(Language("tlh"), "language \"tlh\": expected one of en, zh");
+  CHECK_THROWS_WITH(Language("tlh"), Catch::Matchers::StartsWith("language \"tlh\": expected one of "));
 }
 
 TEST_CASE("every kind of remark, on one stroke or several, is said in full in every language", "[judge]") {

@@ -185,8 +185,8 @@ test("strokes are matched", () => {
   assert.equal(remarks.length, 1);
   assert.equal(remarks[0].text(), "Stroke 2 (shù) came too early: write stroke 1 (héng) first.");
   assert.equal(remarks[0].text("zh"), "第2笔（竖）写早了，先写第1笔（横）。");
-  assert.throws(() => remarks[0].text("tlh"), /language: expected one of en, zh, not tlh/);
-  assert.deepEqual(library.languages(), ["en", "zh"]);
+  assert.throws(() => remarks[0].text("tlh"), /language: expected one of .*en.*, not tlh/);
+  for (const code of ["en", "zh"]) assert.ok(library.languages().includes(code), code);
   assert.equal(remarks[0].kind, constants.REMARK_ORDER);
   const asPolylines = [across, down].map((path) => Float64Array.from(path.flat()));
   assert.deepEqual(library.match(cross, 0, asPolylines).remarks, []);
