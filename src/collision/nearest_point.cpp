@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "approximate_nearest_point.hpp"
+#include "base/enum_name.hpp"
 #include "base/require.hpp"
 #include "certified_nearest_point.hpp"
 #include "length.hpp"
@@ -49,17 +50,8 @@ ParameterRange clamped(const ParameterRange& range) {
 }  // namespace
 
 const char* to_string(NearestPointMethod method) noexcept {
-  switch (method) {
-    case NearestPointMethod::exact:
-      return "exact";
-    case NearestPointMethod::tracked:
-      return "tracked";
-    case NearestPointMethod::sampled:
-      return "sampled";
-    case NearestPointMethod::wang2006:
-      return "wang2006";
-  }
-  return "";
+  static constexpr const char* names[] = {"exact", "tracked", "sampled", "wang2006"};
+  return name_of<NearestPointMethod::wang2006>(method, names, "");
 }
 
 void validate(const NearestPointOptions& options) {

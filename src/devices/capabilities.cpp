@@ -4,6 +4,7 @@
 
 #include <calligraphy/base/error.hpp>
 
+#include "base/enum_name.hpp"
 #include "base/require.hpp"
 
 namespace calligraphy {
@@ -25,13 +26,8 @@ Eigen::Vector3d shortened(const Eigen::Vector3d& force, double limit) noexcept {
 }  // namespace
 
 const char* to_string(VelocitySource source) noexcept {
-  switch (source) {
-    case VelocitySource::measured:
-      return "measured";
-    case VelocitySource::estimated:
-      return "estimated";
-  }
-  return "unknown";
+  static constexpr const char* names[] = {"measured", "estimated"};
+  return name_of<VelocitySource::estimated>(source, names, "unknown");
 }
 
 std::string axes_text(const DeviceAxes& axes) {

@@ -9,10 +9,10 @@
 #include <calligraphy/devices/detail/flush_denormals.hpp>
 #include <calligraphy/devices/emergency_stop.hpp>
 
+#include "base/bit_cast.hpp"
+#include "base/enum_name.hpp"
 #include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
-
-#include "base/bit_cast.hpp"
 
 namespace calligraphy {
 namespace {
@@ -64,17 +64,8 @@ thread_local const Servo* servo_in_law = nullptr;
 }  // namespace
 
 const char* to_string(ServoPhase phase) noexcept {
-  switch (phase) {
-    case ServoPhase::zero:
-      return "zero";
-    case ServoPhase::rising:
-      return "rising";
-    case ServoPhase::running:
-      return "running";
-    case ServoPhase::falling:
-      return "falling";
-  }
-  return "unknown";
+  static constexpr const char* names[] = {"zero", "rising", "running", "falling"};
+  return name_of<ServoPhase::falling>(phase, names, "unknown");
 }
 
 Servo::Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options)

@@ -1,19 +1,12 @@
 #include <calligraphy/render/interaction_state.hpp>
 
+#include "base/enum_name.hpp"
+
 namespace calligraphy {
 
 const char* to_string(InteractionState state) noexcept {
-  switch (state) {
-    case InteractionState::separation:
-      return "SS";
-    case InteractionState::adjusting:
-      return "AS";
-    case InteractionState::calibration:
-      return "CS";
-    case InteractionState::writing:
-      return "WS";
-  }
-  return "";
+  static constexpr const char* names[] = {"SS", "AS", "CS", "WS"};
+  return name_of<InteractionState::writing>(state, names, "");
 }
 
 InteractionState next_state(InteractionState state, const TransitionInput& input) noexcept {

@@ -37,21 +37,8 @@ const KnownError* find(ErrorCode code) noexcept {
 }
 
 int gravity(DeviceStatus status) noexcept {
-  switch (status) {
-    case DeviceStatus::ok:
-      return 0;
-    case DeviceStatus::warm_motors:
-      return 1;
-    case DeviceStatus::stale:
-      return 2;
-    case DeviceStatus::needs_calibration:
-      return 3;
-    case DeviceStatus::fault:
-      return 4;
-    case DeviceStatus::disconnected:
-      return 5;
-  }
-  return 4;
+  constexpr int of_status[] = {0, 2, 5, 1, 3, 4};  // ok, stale, disconnected, warm_motors, needs_calibration, fault
+  return of_status[static_cast<std::size_t>(status)];
 }
 
 }  // namespace

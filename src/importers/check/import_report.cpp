@@ -2,6 +2,7 @@
 #include <map>
 #include <utility>
 
+#include "base/enum_name.hpp"
 #include "imported_character.hpp"
 
 namespace calligraphy {
@@ -93,15 +94,8 @@ class Counter {
 }  // namespace
 
 const char* to_string(LabelResolution resolution) noexcept {
-  switch (resolution) {
-    case LabelResolution::accepted:
-      return "accepted";
-    case LabelResolution::overridden:
-      return "overridden";
-    case LabelResolution::unknown:
-      break;
-  }
-  return "unknown";
+  static constexpr const char* names[] = {"unknown", "accepted", "overridden"};
+  return name_of<LabelResolution::overridden>(resolution, names, "unknown");
 }
 
 ImportReport report_of(SourceKind kind, const std::vector<ImportedCharacter>& characters) {

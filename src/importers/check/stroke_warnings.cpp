@@ -12,6 +12,7 @@
 #include <calligraphy/importers/stroke_fit.hpp>
 #include <calligraphy/model/bezier.hpp>
 
+#include "base/enum_name.hpp"
 #include "base/parallel.hpp"
 #include "importers/fit/polyline.hpp"
 #include "importers/read/stroke_labels.hpp"
@@ -217,29 +218,9 @@ std::vector<StrokeWarning> merged(std::vector<StrokeWarning> warnings, const std
 }  // namespace
 
 const char* to_string(StrokeWarningKind kind) noexcept {
-  switch (kind) {
-    case StrokeWarningKind::type:
-      return "type";
-    case StrokeWarningKind::direction:
-      return "direction";
-    case StrokeWarningKind::overlap:
-      return "overlap";
-    case StrokeWarningKind::outside:
-      return "outside";
-    case StrokeWarningKind::label:
-      return "label";
-    case StrokeWarningKind::fold:
-      return "fold";
-    case StrokeWarningKind::crossing:
-      return "crossing";
-    case StrokeWarningKind::length:
-      return "length";
-    case StrokeWarningKind::corner:
-      return "corner";
-    case StrokeWarningKind::distance:
-      break;
-  }
-  return "distance";
+  static constexpr const char* names[] = {
+      "type", "direction", "overlap", "outside", "label", "fold", "crossing", "length", "corner", "distance"};
+  return name_of<StrokeWarningKind::distance>(kind, names, "distance");
 }
 
 double start_direction_error(const Stroke& stroke) {
