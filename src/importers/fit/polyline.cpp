@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Dense>
-
 #include <calligraphy/model/stroke_polyline.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
@@ -128,16 +126,6 @@ Path refined(const Path& path, double step) {
     }
   }
   return result;
-}
-
-Line line_through(std::span<const Point> points) {
-  Point mean = Point::Zero();
-  for (const Point& point : points) mean += point;
-  mean /= static_cast<double>(points.size());
-  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
-  for (const Point& point : points) moments += (point - mean) * (point - mean).transpose();
-  const double angle = 0.5 * std::atan2(2.0 * moments(0, 1), moments(0, 0) - moments(1, 1));
-  return {mean, Point(std::cos(angle), std::sin(angle))};
 }
 
 Path flattened(const StrokeInput& stroke) {

@@ -51,13 +51,6 @@ Path simplified(const Path& path, std::size_t most, double tolerance);
 /// The path with vertices added so that no step exceeds `step` [em], which is increased if there would be too many.
 Path refined(const Path& path, double step);
 
-/// Line through points by total least squares: a point on it and its unit direction.
-struct Line {
-  Point through;
-  Point direction;
-};
-Line line_through(std::span<const Point> points);
-
 /// The path of a stroke as stroke_polyline() flattens it, before it is part of a character.
 Path flattened(const StrokeInput& stroke);
 

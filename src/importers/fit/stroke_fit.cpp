@@ -209,13 +209,7 @@ class Fit {
 
 /// A dot centred on a point: a short dian towards the lower right.
 StrokeInput dot_around(std::span<const Point> path) {
-  Point low = path.front();
-  Point high = path.front();
-  for (const Point& point : path) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  const Point centre = 0.5 * (low + high);
+  const Point centre = box_of(path).center();
   const Point half = 0.5 * dot_length * Point(1.0, -1.0).normalized();
   return {8, {centre - half, centre + half}};
 }
