@@ -11,7 +11,6 @@ namespace {
 constexpr std::size_t most_joints = 48;
 constexpr double free_turn = 35.0;          // [degree] from the typical direction, free of cost
 constexpr double price_of_degree = 0.0005;  // [em]; for turns beyond that
-constexpr double unreached = std::numeric_limits<double>::infinity();
 
 /// Directions of an element in the typical stroke [degree]; if that is a line, all the same.
 struct ElementDirections {
@@ -69,38 +68,18 @@ double StrokeDivider::residual(std::size_t from, std::size_t to, char kind) {
 }
 
 Division StrokeDivider::divide(const TypicalStroke& type, std::string_view elements) {
-  const std::size_t places = places_.size();
-  if (places <= elements.size()) return {};
   const std::vector<ElementDirections> directions = directions_of(type);
   const double points = static_cast<double>(path_.size());
   const double parts = static_cast<double>(elements.size());
-  std::vector<double> least((elements.size() + 1) * places, unreached);
-  std::vector<std::size_t> previous(least.size(), 0);
-  least[0] = 0.0;
-  for (std::size_t element = 0; element < elements.size(); ++element) {
+  const auto cost = [&](std::size_t element, std::size_t from, std::size_t to, double before, double best) {
     const char kind = elements[element];
-    const bool is_last = element + 1 == elements.size();
-    for (std::size_t from = element; from + 1 < places; ++from) {
-      const double before = least[element * places + from];
-      if (before == unreached) continue;
-      for (std::size_t to = is_last ? places - 1 : from + 1; to < places; ++to) {
-        double& best = least[(element + 1) * places + to];
-        double cost = before + residual(from, to, kind) / points;
-        if (cost >= best) continue;
-        cost += price_of_directions(path_, places_[from], places_[to], kind, directions[element]) / parts;
-        if (cost >= best) continue;
-        best = cost;
-        previous[(element + 1) * places + to] = from;
-      }
-    }
-  }
+    const double total = before + residual(from, to, kind) / points;
+    if (total >= best) return total;
+    return total + price_of_directions(path_, places_[from], places_[to], kind, directions[element]) / parts;
+  };
   Division division;
-  division.cost = least.back();
-  division.ends.assign(elements.size() + 1, path_.size() - 1);
-  for (std::size_t element = elements.size(), place = places - 1; element > 0; --element) {
-    place = previous[element * places + place];
-    division.ends[element - 1] = places_[place];
-  }
+  division.cost = divide_at_least_cost(elements.size(), places_.size(), division.ends, cost);
+  for (std::size_t& end : division.ends) end = places_[end];
   return division;
 }
 
