@@ -31,8 +31,8 @@ std::string complaint(const std::string& text) {
 
 Character fitted(char32_t code, const std::string& json) {
   std::vector<StrokeInput> strokes;
-  for (const BrushStroke& stroke : parse_hanzi_writer(json, encode_utf8(code) + ".json")) {
-    strokes.push_back(fit_stroke(stroke.median, {.outline = stroke.outline}).stroke);
+  for (const DrawnStroke& stroke : parse_hanzi_writer(json, encode_utf8(code) + ".json")) {
+    strokes.push_back(fit_stroke(stroke.path, {.outline = stroke.outline}).stroke);
   }
   return make_character(code, strokes);
 }
@@ -65,7 +65,7 @@ TEST_CASE("outlines are in the frame of the medians, and a file may have none", 
       R"({"strokes":["M 0 -124 L 1024 -124 L 1024 900 Z"],"medians":[[[100,400],[900,400]]]})", "x.json");
   REQUIRE(drawn.size() == 1);
   CHECK(drawn[0].outline == std::vector<Point>{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}});
-  CHECK(drawn[0].median.size() == 2);
+  CHECK(drawn[0].path.size() == 2);
   CHECK(parse_hanzi_writer(R"({"medians":[[[100,400],[900,400]]]})", "x.json")[0].outline.empty());
 }
 

@@ -61,7 +61,7 @@ double distance_to(const std::vector<Point>& path, const Point& point) {
 }  // namespace
 
 TEST_CASE("109 units with y down become the em square with y up, with labels and order kept", "[practice]") {
-  const KanjivgDrawing drawing = parse_kanjivg(
+  const Drawing drawing = parse_kanjivg(
       svg(R"(<g><path kvg:type="㇐" d="M0,109c36.3,0,72.6,0,109,0"/></g><path d="M54.5,0C54.5,30,54.5,80,54.5,109"/>)",
           "<!-- Copyright -->"),
       "x.svg");

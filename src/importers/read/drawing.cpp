@@ -1,7 +1,6 @@
 #include "drawing.hpp"
 
 #include <cstddef>
-#include <utility>
 
 #include "hanzi_writer.hpp"
 #include "kanjivg.hpp"
@@ -12,21 +11,15 @@ namespace calligraphy {
 namespace {
 
 Drawing pen_drawing(const DrawingFile& file) {
-  Drawing drawing;
-  KanjivgDrawing parsed = parse_kanjivg(file.text, file.place);
-  drawing.notice = with_plain_line_ends(parsed.notice, file.place);
-  for (KanjivgStroke& stroke : parsed.strokes) {
-    const std::span<const int> ids = ids_of_kanjivg_label(stroke.label);
-    drawing.strokes.push_back({std::move(stroke.path), {}, std::move(stroke.label), ids});
-  }
+  Drawing drawing = parse_kanjivg(file.text, file.place);
+  drawing.notice = with_plain_line_ends(drawing.notice, file.place);
+  for (DrawnStroke& stroke : drawing.strokes) stroke.label_ids = ids_of_kanjivg_label(stroke.label);
   return drawing;
 }
 
 Drawing brush_drawing(const DrawingFile& file, const StrokeLetters& letters) {
   Drawing drawing;
-  for (BrushStroke& stroke : parse_hanzi_writer(file.text, file.place)) {
-    drawing.strokes.push_back({std::move(stroke.median), std::move(stroke.outline), {}, {}});
-  }
+  drawing.strokes = parse_hanzi_writer(file.text, file.place);
   const auto found = letters.find(file.character.code);
   if (found == letters.end()) return drawing;
   drawing.letters_unused = found->second.size() != drawing.strokes.size();

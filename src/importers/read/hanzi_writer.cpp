@@ -33,15 +33,15 @@ class Reader {
     }
   }
 
-  std::vector<BrushStroke> strokes() const {
+  std::vector<DrawnStroke> strokes() const {
     if (!root_.is_object()) fail("", "expected an object");
     const auto medians = root_.find("medians");
     if (medians == root_.end()) fail("medians", "missing");
     if (!medians->is_array() || medians->empty()) fail("medians", "expected a non-empty array");
     if (medians->size() > max_strokes) fail("medians", "more than " + std::to_string(max_strokes) + " strokes");
-    std::vector<BrushStroke> result;
+    std::vector<DrawnStroke> result;
     for (std::size_t i = 0; i < medians->size(); ++i) {
-      result.push_back({median((*medians)[i], place_in("medians", i)), {}});
+      result.push_back({median((*medians)[i], place_in("medians", i)), {}, {}, {}});
     }
     const auto outlines = root_.find("strokes");
     if (outlines == root_.end()) return result;
@@ -104,7 +104,7 @@ class Reader {
 
 }  // namespace
 
-std::vector<BrushStroke> parse_hanzi_writer(std::string_view json, const std::string& name) {
+std::vector<DrawnStroke> parse_hanzi_writer(std::string_view json, const std::string& name) {
   return Reader(json, name).strokes();
 }
 

@@ -5,18 +5,14 @@
 #include <string_view>
 #include <vector>
 
-#include <calligraphy/model/point.hpp>
+#include "drawing.hpp"
 
 namespace calligraphy {
 
-struct BrushStroke {
-  std::vector<Point> median;   ///< in writing direction [em]
-  std::vector<Point> outline;  ///< vertices of a closed polygon within 5e-4 em of the outline [em]; may be empty
-};
-
-/// The strokes in the file of one character, in writing order. The file has 1024 units per em and the baseline at -124;
-/// the result is in the unit square, y up. Outlines are empty if the file has none. `name` is used in messages.
+/// The strokes in the file of one character, in writing order: medians, and outlines within 5e-4 em, empty if the file
+/// has none. The file has 1024 units per em and the baseline at -124; the result is in the unit square, y up. `name` is
+/// used in messages.
 /// @throws FormatError naming the place
-std::vector<BrushStroke> parse_hanzi_writer(std::string_view json, const std::string& name);
+std::vector<DrawnStroke> parse_hanzi_writer(std::string_view json, const std::string& name);
 
 }  // namespace calligraphy

@@ -45,8 +45,9 @@ void check_view_box(pugi::xml_node root, const std::string& name) {
   fail(name, "viewBox '" + box.substr(0, 40) + "': expected '0 0 109 109'");
 }
 
-KanjivgStroke stroke_of(pugi::xml_node path, const std::string& place) {
-  KanjivgStroke stroke{path.attribute("kvg:type").value(), {}};
+DrawnStroke stroke_of(pugi::xml_node path, const std::string& place) {
+  DrawnStroke stroke;
+  stroke.label = path.attribute("kvg:type").value();
   if (stroke.label.size() > max_label) fail(place, "kvg:type is longer than 64 bytes");
   try {
     decode_utf8(stroke.label);
@@ -60,7 +61,7 @@ KanjivgStroke stroke_of(pugi::xml_node path, const std::string& place) {
 
 }  // namespace
 
-KanjivgDrawing parse_kanjivg(std::string_view svg, const std::string& name) {
+Drawing parse_kanjivg(std::string_view svg, const std::string& name) {
   if (svg.size() > max_svg) fail(name, "larger than 1 MB");
   pugi::xml_document document;
   const auto result =
@@ -72,7 +73,7 @@ KanjivgDrawing parse_kanjivg(std::string_view svg, const std::string& name) {
   if (!root) fail(name, "no <svg> element");
   check_view_box(root, name);
 
-  KanjivgDrawing drawing;
+  Drawing drawing;
   if (const pugi::xml_node first = document.first_child(); first.type() == pugi::node_comment) {
     drawing.notice = first.value();
   }
