@@ -16,7 +16,7 @@
 #include "../sanitized.hpp"
 #include "../temporary_directory.hpp"
 #include "importers/check/bitmap.hpp"
-#include "importers/check/ink_measures.hpp"
+#include "importers/check/import_measures.hpp"
 #include "importers/fit/ink_fit.hpp"
 
 namespace ink_fit_tests {

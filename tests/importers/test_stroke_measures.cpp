@@ -7,7 +7,7 @@
 
 #include "../catch.hpp"
 #include "../sanitized.hpp"
-#include "importers/check/stroke_measures.hpp"
+#include "importers/check/import_measures.hpp"
 #include "importers/fit/crossings.hpp"
 #include "importers/fit/frechet.hpp"
 #include "importers/fit/outline.hpp"

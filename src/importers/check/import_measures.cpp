@@ -4,15 +4,12 @@
 #include <span>
 
 #include <calligraphy/model/character_set.hpp>
-#include <calligraphy/model/ink_outline.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 #include <calligraphy/model/stroke_polyline.hpp>
 #include <calligraphy/model/typical_ink.hpp>
 
 #include "importers/fit/ink_fit.hpp"
-#include "ink_measures.hpp"
 #include "shape_contradiction.hpp"
-#include "stroke_measures.hpp"
 
 namespace calligraphy {
 namespace {

@@ -1,9 +1,10 @@
-// Measures the strokes of an imported character against its drawing; private to the importers.
+// How well imported strokes follow their source (docs/strokes.md); private to the importers.
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include <calligraphy/model/character.hpp>
+#include <calligraphy/model/ink_outline.hpp>
 
 #include "imported_character.hpp"
 #include "importers/fit/crossings.hpp"
@@ -15,4 +16,14 @@ namespace calligraphy {
 void measure_import(const std::vector<DrawnStroke>& drawn, const std::vector<StrokeInput>& strokes,
                     const std::vector<recognition::CrossingStrokes>& crossings, ImportedCharacter& result);
 
+namespace recognition {
+
+/// Measures the path of a stroke against the path that it was fitted to, drawn by a brush of this half-width [em].
+/// Leaves place, id and distance empty.
+StrokeMeasures measure_stroke(std::span<const Point> path, std::span<const Point> source, double half_width);
+
+/// Measures the ink of one character's strokes against their outlines, which are closed polygons.
+InkMeasures measure_ink(std::span<const std::span<const Point>> outlines, std::span<const std::vector<InkDisc>> inks);
+
+}  // namespace recognition
 }  // namespace calligraphy

@@ -1,13 +1,11 @@
-#include "ink_measures.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
 #include "bitmap.hpp"
+#include "import_measures.hpp"
 #include "importers/fit/outline.hpp"
-#include "importers/fit/polyline.hpp"
 
 namespace calligraphy::recognition {
 namespace {

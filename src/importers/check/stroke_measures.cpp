@@ -1,11 +1,11 @@
-#include "stroke_measures.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include "import_measures.hpp"
 
 namespace calligraphy::recognition {
 namespace {

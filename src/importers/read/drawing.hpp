@@ -6,12 +6,19 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/model/point.hpp>
 
-#include "character_file.hpp"
 #include "stroke_letters.hpp"
 
 namespace calligraphy {
+
+/// The character that a file draws, according to its name.
+struct CharacterFile {
+  SourceKind kind;
+  char32_t code;
+  std::string order;  ///< empty for the standard one
+};
 
 /// One file of a source.
 struct DrawingFile {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -15,7 +16,8 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 
-#include "character_file.hpp"
+#include "base/charconv.hpp"
+#include "base/enum_name.hpp"
 #include "source_files.hpp"
 
 namespace calligraphy {
@@ -23,6 +25,47 @@ namespace {
 
 constexpr std::string_view licence_file = "ARPHICPL.TXT";
 constexpr std::string_view package_file = "package.json";
+
+constexpr std::size_t max_order = 64;  // [byte]
+
+bool is_word(std::string_view text) {
+  return !text.empty() && text.size() <= max_order && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+  });
+}
+
+/// 04e86.svg or 04e86-Kaisho.svg.
+std::optional<CharacterFile> kanjivg_name(std::string_view stem) {
+  constexpr std::size_t digits = 5;
+  unsigned code = 0;
+  if (stem.size() < digits) return std::nullopt;
+  const char* const end = stem.data() + digits;
+  const auto [rest, error] = from_chars(stem.data(), end, code, 16);
+  if (error != std::errc() || rest != end || code == 0) return std::nullopt;
+  if (stem.size() == digits) return CharacterFile{SourceKind::kanjivg, code, {}};
+  if (stem[digits] != '-' || !is_word(stem.substr(digits + 1))) return std::nullopt;
+  return CharacterFile{SourceKind::kanjivg, code, std::string(stem.substr(digits + 1))};
+}
+
+/// 永.json.
+std::optional<CharacterFile> hanzi_writer_name(std::string_view stem) {
+  try {
+    const std::u32string codes = decode_utf8(stem);
+    if (codes.size() == 1 && codes[0] > 0x7F) return CharacterFile{SourceKind::hanzi_writer_data, codes[0], {}};
+  } catch (const FormatError&) {  // the name is in another encoding
+  }
+  return std::nullopt;
+}
+
+/// From the path of a file within the source; empty if it names no character.
+std::optional<CharacterFile> character_file(std::string_view path) {
+  const std::string_view name = path.substr(path.rfind('/') + 1);
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos) return std::nullopt;
+  if (name.substr(dot) == ".svg") return kanjivg_name(name.substr(0, dot));
+  if (name.substr(dot) == ".json") return hanzi_writer_name(name.substr(0, dot));
+  return std::nullopt;
+}
 
 bool is_ideograph(char32_t code) {
   return (code >= 0x3400 && code <= 0x4DBF) || (code >= 0x4E00 && code <= 0x9FFF) ||
@@ -89,15 +132,8 @@ std::string package_words(const std::string& package_json) {
 }  // namespace
 
 const char* to_string(SourceKind kind) noexcept {
-  switch (kind) {
-    case SourceKind::hanzi_writer_data:
-      return "hanzi-writer-data";
-    case SourceKind::kanjivg:
-      return "KanjiVG";
-    case SourceKind::calligraphy:
-      break;
-  }
-  return "calligraphy";
+  static constexpr const char* names[] = {"hanzi-writer-data", "KanjiVG", "calligraphy"};
+  return name_of<SourceKind::calligraphy>(kind, names, "calligraphy");
 }
 
 DrawingSource read_drawings(const std::filesystem::path& path, const ImportOptions& options) {

@@ -1,6 +1,6 @@
 #include <calligraphy/base/error.hpp>
 
-#include "tarball.hpp"
+#include "source_files.hpp"
 
 namespace calligraphy {
 

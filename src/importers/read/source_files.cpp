@@ -8,8 +8,6 @@
 #include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
 
-#include "tarball.hpp"
-
 namespace calligraphy {
 namespace {
 

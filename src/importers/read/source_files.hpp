@@ -34,4 +34,7 @@ using SkipReason = std::function<std::string(std::string_view path)>;
 SourceFiles read_source(const std::filesystem::path& source, const SkipReason& skip_reason,
                         const SourceLimits& limits = {});
 
+/// The same for a tarball.
+SourceFiles read_tarball(const std::filesystem::path& path, const SkipReason& skip_reason, const SourceLimits& limits);
+
 }  // namespace calligraphy

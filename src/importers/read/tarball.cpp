@@ -1,5 +1,5 @@
 // zlib decompresses and verifies the checksums, which libarchive's filter does not; libarchive reads the tar inside.
-#include "tarball.hpp"
+#include "source_files.hpp"
 
 #include <array>
 #include <cerrno>
