@@ -4,6 +4,8 @@
 #include "hid_link.hpp"
 
 #include <hidapi.h>
+#include <linux/hidraw.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,7 +16,6 @@
 #include <calligraphy/devices/servo_thread.hpp>
 
 #include "base/monotonic_clock.hpp"
-#include "hidraw.hpp"
 #include "report_descriptor.hpp"
 #include "sysfs.hpp"
 #include "usb_device.hpp"
@@ -59,6 +60,15 @@ namespace {
 hid_device* opened(const std::string& path) {
   const std::lock_guard<std::mutex> alone(hidapi_mutex());
   return hid_open_path(path.c_str());
+}
+
+/// Whether the descriptor belongs to a hidraw node of a device with these ids; false for -1, and once the device is
+/// being unplugged. The system answers without asking the device.
+bool hidraw_answers(int descriptor, const PluggedDevice& device) noexcept {
+  hidraw_devinfo info = {};
+  return descriptor >= 0 && ioctl(descriptor, HIDIOCGRAWINFO, &info) >= 0 &&
+         static_cast<std::uint16_t>(info.vendor) == device.vendor_id &&
+         static_cast<std::uint16_t>(info.product) == device.product_id;
 }
 
 /// A report as hidapi and hidraw expect it: the report number first, 0 if there is none.

@@ -7,7 +7,6 @@
 #include <calligraphy/devices/phantom/device_list.hpp>
 
 #include "link.hpp"
-#include "link_options.hpp"
 
 namespace calligraphy::phantom {
 

@@ -23,13 +23,19 @@ constexpr std::uint8_t report_number = 0x84;
 constexpr std::uint8_t collection = 0xa0;
 constexpr std::uint8_t end_collection = 0xc0;
 
+/// Size of the first item of a descriptor that is not empty; it may be truncated.
+std::size_t item_size(std::span<const std::byte> descriptor) noexcept {
+  const auto prefix = std::to_integer<std::uint8_t>(descriptor[0]);
+  if (prefix == long_item && descriptor.size() > 1) return 3 + std::to_integer<std::size_t>(descriptor[1]);
+  return 1 + (prefix & 3u) + ((prefix & 3u) == 3u ? 1 : 0);
+}
+
 /// A truncated item ends the list.
 std::vector<Item> items_of(std::span<const std::byte> descriptor) {
   std::vector<Item> items;
   while (!descriptor.empty()) {
     const auto prefix = std::to_integer<std::uint8_t>(descriptor[0]);
-    std::size_t size = 1 + (prefix & 3u) + ((prefix & 3u) == 3u ? 1 : 0);
-    if (prefix == long_item && descriptor.size() > 1) size = 3 + std::to_integer<std::size_t>(descriptor[1]);
+    const std::size_t size = item_size(descriptor);
     if (size > descriptor.size()) break;
     Item item;
     item.bytes = descriptor.first(size);
@@ -103,8 +109,7 @@ bool has_numbered_reports(std::span<const std::byte> descriptor) noexcept {
   while (!descriptor.empty()) {
     const auto prefix = std::to_integer<std::uint8_t>(descriptor[0]);
     if ((prefix & 0xfcu) == report_number) return true;
-    std::size_t size = 1 + (prefix & 3u) + ((prefix & 3u) == 3u ? 1 : 0);
-    if (prefix == long_item && descriptor.size() > 1) size = 3 + std::to_integer<std::size_t>(descriptor[1]);
+    const std::size_t size = item_size(descriptor);
     if (size > descriptor.size()) break;
     descriptor = descriptor.subspan(size);
   }

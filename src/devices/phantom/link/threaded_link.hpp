@@ -12,7 +12,6 @@
 #include <calligraphy/devices/phantom/device_list.hpp>
 
 #include "link.hpp"
-#include "link_options.hpp"
 #include "newest_packet.hpp"
 
 namespace calligraphy::phantom {
