@@ -36,7 +36,6 @@ class SerialFrames {
       if (add(byte)) {
         take(SerialFrame{std::to_integer<std::uint8_t>(frame_[2]),
                          std::span<const std::byte>(frame_).subspan(header_size, size_ - header_size)});
-        ++frames_;
         size_ = 0;
       }
     }
@@ -45,7 +44,6 @@ class SerialFrames {
   /// Discards an incomplete frame after the stream was interrupted.
   void reset() noexcept;
 
-  std::uint64_t frames() const noexcept { return frames_; }
   /// Bytes that belong to no frame.
   std::uint64_t skipped() const noexcept { return skipped_; }
 
@@ -61,7 +59,6 @@ class SerialFrames {
   std::optional<Expected> expected_;
   std::array<std::byte, header_size + 255> frame_{};
   std::size_t size_ = 0;
-  std::uint64_t frames_ = 0;
   std::uint64_t skipped_ = 0;
 };
 
