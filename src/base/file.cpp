@@ -1,17 +1,22 @@
 #include <calligraphy/base/file.hpp>
 
+#if __has_include(<fcntl.h>) && __has_include(<unistd.h>)
+#include <fcntl.h>
+#include <unistd.h>
+#endif
+
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <random>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
-
-#include "open_stream.hpp"
 
 namespace calligraphy {
 namespace {
@@ -100,6 +105,27 @@ bool is_stream(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   return fs::is_fifo(status) || fs::is_character_file(status);
 }
+
+/// Opens a pipe or a character device for writing, without waiting forever. Returns null, with the reason in `errno`,
+/// on failure: ENXIO for a pipe that no program reads, after waiting a second for a reader to start.
+#ifdef O_NONBLOCK
+std::FILE* open_stream(const std::string& path) noexcept {
+  int descriptor = -1;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    if (descriptor >= 0 || errno != ENXIO) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    errno = ENXIO;
+  }
+  if (descriptor < 0) return nullptr;
+  fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);  // waits while the pipe is full
+  std::FILE* const file = fdopen(descriptor, "wb");
+  if (file == nullptr) close(descriptor);
+  return file;
+}
+#else
+std::FILE* open_stream(const std::string& path) noexcept { return std::fopen(path.c_str(), "wb"); }
+#endif
 
 void write_to_stream(const fs::path& path, std::string_view content) {
   errno = 0;

@@ -58,7 +58,6 @@ inline constexpr unsigned known_flags = more_forms | named | quartic | factors |
 inline constexpr std::size_t max_plain_strokes = 127;
 inline constexpr std::size_t max_strokes = 4096;          ///< of a form
 inline constexpr std::size_t max_forms = 255;             ///< of a character
-inline constexpr std::size_t max_order_name_bytes = 255;  // [byte]
 
 // A stroke is stored as the rank of its kind, in a Rice code of parameter 1: rank / 2 ones, a zero, and the lowest bit.
 // A rank too high for version 1 follows an escape: more ones than its ranks need.
