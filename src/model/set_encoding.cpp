@@ -29,33 +29,23 @@ using namespace set_format;
 
 using Bytes = std::vector<std::byte>;
 
-/// The steps of each precision cover -0.14 to 1.14 em.
-CoordinateEncoding coding_of(CoordinatePrecision precision) {
+struct PrecisionSteps {
+  CoordinateEncoding coordinates;  ///< cover -0.14 to 1.14 em
+  std::uint32_t ink = 0;           ///< [1/em]; 0: exact
+};
+
+PrecisionSteps steps_in(CoordinatePrecision precision) {
   switch (precision) {
     case CoordinatePrecision::coarse:
-      return {200, -28, -28, 8, 8};
+      return {{200, -28, -28, 8, 8}, 400};
     case CoordinatePrecision::standard:
-      return {800, -112, -112, 10, 10};
+      return {{800, -112, -112, 10, 10}, 800};
     case CoordinatePrecision::fine:
-      return {12800, -1792, -1792, 14, 14};
+      return {{12800, -1792, -1792, 14, 14}, 12800};
     case CoordinatePrecision::exact:
       break;
   }
   return {};
-}
-
-std::uint32_t ink_steps_of(CoordinatePrecision precision) {
-  switch (precision) {
-    case CoordinatePrecision::coarse:
-      return 400;
-    case CoordinatePrecision::standard:
-      return 800;
-    case CoordinatePrecision::fine:
-      return 12800;
-    case CoordinatePrecision::exact:
-      break;
-  }
-  return 0;
 }
 
 void append_bytes(Bytes& bytes, const Bytes& more) { bytes.insert(bytes.end(), more.begin(), more.end()); }
@@ -178,7 +168,7 @@ class FormEncoder {
       const std::vector<RankedInk> own = inks_of(character);
       inks.insert(inks.end(), own.begin(), own.end());
     }
-    ink_code = ink_code_of(inks, kinds.size(), ink_steps_of(precision));
+    ink_code = ink_code_of(inks, kinds.size(), steps_in(precision).ink);
   }
 
   InkCode ink_code;
@@ -416,14 +406,14 @@ Bytes assemble(const Header& header, const Provenance& provenance, const GroupWr
 }  // namespace
 
 double coordinate_error_bound(CoordinatePrecision precision) noexcept {
-  const std::uint32_t steps_per_em = coding_of(precision).steps_per_em;
+  const std::uint32_t steps_per_em = steps_in(precision).coordinates.steps_per_em;
   if (steps_per_em == 0) return 0.0;
   constexpr double arithmetic = 1e-14;  // [em]; of a coordinate within 16 em
   return std::numbers::sqrt2 / 2.0 / steps_per_em + arithmetic;
 }
 
 double ink_error_bound(CoordinatePrecision precision) noexcept {
-  const std::uint32_t steps_per_em = ink_steps_of(precision);
+  const std::uint32_t steps_per_em = steps_in(precision).ink;
   if (steps_per_em == 0) return 0.0;
   constexpr double arithmetic = 1e-15;  // [em]; of a length within 1 em
   return 0.5 / steps_per_em + arithmetic;
@@ -432,7 +422,7 @@ double ink_error_bound(CoordinatePrecision precision) noexcept {
 std::vector<std::byte> encode_character_set(const CharacterList& set, CoordinatePrecision precision) {
   check(set.provenance);
   const auto characters = sorted(set);
-  Header header{coding_of(precision), ranked_kinds(set), {}, 0.0};
+  Header header{steps_in(precision).coordinates, ranked_kinds(set), {}, 0.0};
   const FormEncoder encoder(set, header.kinds, precision);
   header.ink = encoder.ink_code;
   GroupWriter writer;
