@@ -1,47 +1,32 @@
 #include "charconv.hpp"
 
 #ifdef __cpp_lib_to_chars  // floating-point numbers, too
-
-namespace calligraphy {
-
-std::from_chars_result from_chars(const char* begin, const char* end, float& value) noexcept {
-  return std::from_chars(begin, end, value);
-}
-std::from_chars_result from_chars(const char* begin, const char* end, double& value) noexcept {
-  return std::from_chars(begin, end, value);
-}
-std::to_chars_result to_chars(char* begin, char* end, float value) noexcept { return std::to_chars(begin, end, value); }
-std::to_chars_result to_chars(char* begin, char* end, double value) noexcept {
-  return std::to_chars(begin, end, value);
-}
-std::to_chars_result to_chars_fixed(char* begin, char* end, double value, int places) noexcept {
-  return std::to_chars(begin, end, value, std::chars_format::fixed, places);
-}
-
-}  // namespace calligraphy
-
+namespace library = std;
 #else
-
 #include "charconv_by_libc.hpp"
+namespace library = calligraphy::by_libc;
+#endif
 
 namespace calligraphy {
 
 std::from_chars_result from_chars(const char* begin, const char* end, float& value) noexcept {
-  return by_libc::from_chars(begin, end, value);
+  return library::from_chars(begin, end, value);
 }
 std::from_chars_result from_chars(const char* begin, const char* end, double& value) noexcept {
-  return by_libc::from_chars(begin, end, value);
+  return library::from_chars(begin, end, value);
 }
 std::to_chars_result to_chars(char* begin, char* end, float value) noexcept {
-  return by_libc::to_chars(begin, end, value);
+  return library::to_chars(begin, end, value);
 }
 std::to_chars_result to_chars(char* begin, char* end, double value) noexcept {
-  return by_libc::to_chars(begin, end, value);
+  return library::to_chars(begin, end, value);
 }
 std::to_chars_result to_chars_fixed(char* begin, char* end, double value, int places) noexcept {
+#ifdef __cpp_lib_to_chars
+  return std::to_chars(begin, end, value, std::chars_format::fixed, places);
+#else
   return by_libc::to_chars_fixed(begin, end, value, places);
+#endif
 }
 
 }  // namespace calligraphy
-
-#endif
