@@ -1,7 +1,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <judge/reading/longest_rise.hpp>
+#include <judge/reading/writing_order.hpp>
 
 #include "../catch.hpp"
 #include "../hard_cases.hpp"

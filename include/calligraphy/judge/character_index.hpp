@@ -1,4 +1,4 @@
-// Which characters of a set a pen wrote: to look one up by drawing it, and to notice that another one was written.
+// Recognising which character of a set a pen wrote: to look one up by drawing it, or to notice a wrong one.
 #pragma once
 
 #include <cstddef>
@@ -16,29 +16,29 @@ class CharacterFeatures;
 /// A character that somebody may have written.
 struct RecognisedCharacter {
   char32_t code = 0;  ///< its Unicode code point
-  /// How far it is from the writing: root mean square of the distances of points that are as far along their strokes,
-  /// once both fill the same square [em].
+  /// How far it is from the writing: RMS distance between points at equal shares of their strokes, once both fill the
+  /// same square [em].
   double distance = 0.0;
 };
 
-/// The characters of a set in all their forms (CharacterSet::forms()), prepared for comparison with a pen: 64 bytes a
+/// The characters of a set in all their forms (CharacterSet::forms()), prepared for comparison with a pen: 64 bytes per
 /// stroke. Cheap to copy; any number of threads may use it.
 class CharacterIndex {
  public:
-  /// Of every character of the set. @throws FormatError naming the file and the character if one is damaged
+  /// An index of every character of the set. @throws FormatError naming the file and the character if one is damaged
   explicit CharacterIndex(const CharacterSet& set);
 
   /// Number of characters.
   std::size_t size() const noexcept;
 
-  /// The characters that the writing resembles, each once, the nearest first, at most `most` of them. They have as many
-  /// strokes as there are pen-downs and are compared in the order of writing, stroke by stroke: strokes that were
-  /// joined, left out, or written in another order or direction, are not understood. Size, place and proportion do not
-  /// count. O(characters with as many strokes).
+  /// At most `most` characters that the writing resembles, each once, the nearest first. They have as many strokes as
+  /// there are pen-downs and are compared in the order of writing, stroke by stroke: joined or missing strokes, and
+  /// another order or direction, are not recognised. Size, place and proportion do not matter. O(characters with as
+  /// many strokes).
   /// @throws ValueError as match_strokes() for the paths
   std::vector<RecognisedCharacter> recognise(std::span<const PenPath> paths, std::size_t most = 10) const;
 
-  /// What match_strokes() compares with.
+  /// What match_strokes() compares the writing with.
   const CharacterFeatures& features() const noexcept { return *features_; }
 
  private:

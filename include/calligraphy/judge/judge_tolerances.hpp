@@ -5,11 +5,11 @@ namespace calligraphy {
 
 /// Tolerances of match_strokes(). The default is normal().
 struct JudgeTolerances {
-  /// Least StrokeRemark::evidence of a remark. The writing is read in the same way whatever this is, so a lower value
-  /// gives the same remarks and more [1].
+  /// Minimum StrokeRemark::evidence of a remark. It does not affect how the writing is read, so a lower value gives the
+  /// same remarks and more [1].
   double evidence = 1.0;
 
-  /// Whether all are the same.
+  /// Whether all tolerances are equal.
   bool operator==(const JudgeTolerances&) const = default;
 
   /// For beginners: only what is clearly wrong.

@@ -1,4 +1,4 @@
-// Languages in which people are told what to do: one file of words each, in data/languages.
+// Languages in which the library addresses people: one file of words each, in data/languages.
 #pragma once
 
 #include <initializer_list>
@@ -16,7 +16,7 @@ struct LanguageWords;
 /// A language, and its words. Cheap to copy; any number of threads may use it.
 class Language {
  public:
-  /// What is filled in for a word in braces: its name and its value.
+  /// The name of a word in braces, and the text that replaces it.
   using Filling = std::pair<std::string_view, std::string_view>;
 
   /// English.
@@ -24,14 +24,14 @@ class Language {
   /// By its code, such as "en" or "zh". @throws ValueError listing the codes if there is no such language
   explicit Language(std::string_view code);
 
-  /// Its code: "en", "zh". In static storage, with a zero at its end.
+  /// Its code: "en", "zh". In static storage and null-terminated.
   std::string_view code() const noexcept;
-  /// Its own name for itself: "English", "中文".
+  /// Its name in the language itself: "English", "中文".
   std::string_view name() const noexcept;
 
-  /// The text of a key with its words filled in, "Stroke {strokes} is missing" for example; empty if there is none.
+  /// The text of a key, such as "Stroke {strokes} is missing", with its words filled in; empty if there is none.
   std::string text(std::string_view key, std::initializer_list<Filling> fillings = {}) const;
-  /// The same for a number of things: above 1, that of "key.several" if there is one.
+  /// The same for a number of things: above 1, the text of "key.several" if there is one.
   std::string text_for(long long count, std::string_view key, std::initializer_list<Filling> fillings = {}) const;
   /// Every key, sorted.
   std::vector<std::string_view> keys() const;

@@ -8,8 +8,8 @@
 
 namespace calligraphy {
 
-/// Motion of one pen-down. Its path is low-passed first (pen_kinematics()); the unit is that of its points, such as em
-/// or m.
+/// Motion of one pen-down. Its path is low-passed first (pen_kinematics()); the unit is that of its points, for example
+/// em or m.
 struct PenKinematics {
   double begin = 0.0;        ///< time of the first sample [s]
   double duration = 0.0;     ///< from the first sample to the last [s]
@@ -18,18 +18,18 @@ struct PenKinematics {
   double mean_speed = std::numeric_limits<double>::quiet_NaN();
   /// Largest speed along the low-passed path; NaN for a pen-down of less than 50 ms [unit/s]
   double peak_speed = std::numeric_limits<double>::quiet_NaN();
-  /// Number of velocity peaks: 1 for a single fluent motion, more where the pen slows down in between or hesitates; 0
-  /// only for a pen-down of less than 50 ms or of a pen that rests.
+  /// Number of velocity peaks: 1 for a single fluent motion, more if the pen slows down in between or hesitates; 0 only
+  /// for a pen-down of less than 50 ms or a resting pen.
   int velocity_peaks = 0;
   /// Spectral arc length (SPARC) of the speed, below 0 and higher for a smoother motion: about -1.4 for a single fluent
-  /// one, whatever its size and duration; NaN for a pen-down of less than 50 ms or of a pen that rests [1]
+  /// one, whatever its size and duration; NaN for a pen-down of less than 50 ms or a resting pen [1]
   double smoothness = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Measures a pen-down with samples at any intervals; of samples with the same time the last counts.
+/// Measures a pen-down with samples at any intervals; of samples with the same time, the last counts.
 ///
-/// It is resampled by linear interpolation at even steps from the first sample to the last, as near to 5 ms (200 Hz) as
-/// possible. There are at most 4,096 points, so that a pen-down above 20 s has longer steps.
+/// It is resampled by linear interpolation at even steps from the first sample to the last, as close to 5 ms (200 Hz)
+/// as possible. There are at most 4,096 points, so a pen-down of more than 20 s has longer steps.
 ///
 /// A Gaussian low-passes the path without delay. It is 3 dB down at 10 Hz, where the motion of a hand ends (Teulings
 /// and Maarse 1984, Hum. Mov. Sci. 3:193-217): its standard deviation is sqrt(ln 2) / (2 pi 10 Hz) = 13.25 ms. It is

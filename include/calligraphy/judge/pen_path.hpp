@@ -9,7 +9,7 @@
 
 namespace calligraphy {
 
-using PenPath = std::vector<Point>;  ///< one pen-down, at least one point [em]
+using PenPath = std::vector<Point>;  ///< one pen-down, with at least one point [em]
 
 /// A shorter pen-down leaves only a point: a dot, a touch or a bounce [em].
 inline constexpr double tap_length = 0.02;
@@ -39,9 +39,9 @@ struct AffineMap {
 };
 
 /// Maps the bounding box of the writing onto that of the character, each axis separately: people fill a square
-/// differently. If a side of either box is below 15 % of the em, or of its other side where this is shorter than the
-/// em, as the height of a heng, its axis is scaled like the other one. The two scales differ by a factor of at
-/// most 1.5. Taps do not count, unless there is nothing else.
+/// differently. If a side of either box is below 15 % of the em, or of its other side where that is shorter than the
+/// em, such as the height of a heng, its axis is scaled like the other one. The two scales differ by a factor of
+/// at most 1.5. Taps do not count unless there is nothing else.
 BoxMap fit_box(std::span<const PenPath> paths, const Character& character);
 
 }  // namespace calligraphy

@@ -21,7 +21,7 @@ using PenStroke = std::vector<TimedPoint>;  ///< one pen-down, at least one poin
 /// The recorded pen of a person writing one character.
 struct PenTrace {
   char32_t character = 0;          ///< the character to be written
-  std::string set;                 ///< one word for the source: a writer, a session, a corpus
+  std::string set;                 ///< one word that names the source: a writer, a session, a corpus
   double em = 1000.0;              ///< edge length of the square in the file's units [1]
   std::vector<PenStroke> strokes;  ///< pen-downs in the order of writing, which need not match strokes of the character
 };

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/judge/pen_path.hpp>
@@ -15,22 +16,19 @@ namespace calligraphy {
 namespace {
 
 constexpr std::size_t warped_points = 64;
-using WarpedPoints = std::array<Point, warped_points>;
 
-WarpedPoints warped_points_of(std::span<const Point> path, const std::string& name) {
+std::vector<Point> warped_points_of(std::span<const Point> path, const std::string& name) {
   if (path.empty()) throw ValueError(name + ": a path without points");
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (!path[i].allFinite()) throw ValueError(name + "[" + std::to_string(i) + "] is not finite");
   }
-  WarpedPoints points;
-  points_along(path, path_length(path), points);
-  return points;
+  return points_along(path, path_length(path), warped_points);
 }
 
 }  // namespace
 
 double dtw_distance(std::span<const Point> one, std::span<const Point> other) {
-  const WarpedPoints rows = warped_points_of(one, "one"), columns = warped_points_of(other, "other");
+  const std::vector<Point> rows = warped_points_of(one, "one"), columns = warped_points_of(other, "other");
   constexpr double unreachable = std::numeric_limits<double>::infinity();
   std::array<double, warped_points + 1> above, sums;  // least weighted sums of two rows, from 1; 0 is their border
   above.fill(unreachable);

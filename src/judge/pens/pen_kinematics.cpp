@@ -64,7 +64,7 @@ EvenPath resampled(std::span<const TimedPoint> samples) {
   return path;
 }
 
-/// The point of index i, or of the continuation of the path by point reflection about its ends.
+/// Point i, also beyond the ends, where the path continues by point reflection about them.
 Point continued(const std::vector<Point>& points, std::ptrdiff_t i) {
   const auto last = static_cast<std::ptrdiff_t>(points.size()) - 1;
   const std::ptrdiff_t period = 2 * last;
@@ -75,7 +75,7 @@ Point continued(const std::vector<Point>& points, std::ptrdiff_t i) {
 }
 
 void low_pass(EvenPath& path) {
-  if (path.points.size() < 3) return;  // straight and uniform, so it stays; the step may be as short as numbers get
+  if (path.points.size() < 3) return;  // straight and uniform, so unchanged; the step may be as short as numbers get
   const double deviation =
       std::sqrt(std::numbers::ln2) / (2.0 * std::numbers::pi * band_limit) / path.step;  // in steps
   const auto reach = static_cast<std::ptrdiff_t>(gaussian_reach * deviation);
@@ -96,7 +96,8 @@ void low_pass(EvenPath& path) {
   path.points = std::move(smooth);
 }
 
-/// At the ends, the central difference is that to their only neighbour, because the path continues by point reflection.
+/// At the ends, the central difference equals that to the only neighbour, because the path continues by point
+/// reflection.
 std::vector<double> speeds(const EvenPath& path) {
   std::vector<double> result;
   for (std::size_t i = 0; i < path.points.size(); ++i) {
@@ -107,7 +108,7 @@ std::vector<double> speeds(const EvenPath& path) {
   return result;
 }
 
-/// Maxima of at least this prominence: between two of them, and outside, the speed falls by that much and rises again.
+/// Counts maxima of at least this prominence: between two of them, and outside, the speed falls by that much.
 int count_peaks(const std::vector<double>& speed, double prominence) {
   int peaks = 0;
   bool climbing = false;
@@ -126,7 +127,7 @@ int count_peaks(const std::vector<double>& speed, double prominence) {
 /// Discrete Fourier transform in place, by the algorithm of Cooley and Tukey (1965); the size is a power of two.
 void transform(std::vector<std::complex<double>>& values) {
   const std::size_t size = values.size();
-  for (std::size_t i = 1, reversed = 0; i < size; ++i) {  // the digits of the index in reverse order
+  for (std::size_t i = 1, reversed = 0; i < size; ++i) {  // bit-reversed indices
     std::size_t digit = size / 2;
     for (; (reversed & digit) != 0; digit /= 2) reversed ^= digit;
     reversed ^= digit;

@@ -14,7 +14,7 @@ namespace {
 
 using detail::judge_constants;
 
-/// Without taps.
+/// The box without taps, unless there is nothing else.
 Eigen::AlignedBox2d box_of(std::span<const PenPath> paths) {
   const double tap = tap_length * shortening(paths);
   Eigen::AlignedBox2d written;
@@ -25,6 +25,7 @@ Eigen::AlignedBox2d box_of(std::span<const PenPath> paths) {
   return written.isEmpty() ? box_of_all(paths) : written;
 }
 
+/// The side below which a box is flat.
 double flat_below(const Eigen::AlignedBox2d& box) {
   return judge_constants.box_flat_side * std::min(1.0, box.sizes().maxCoeff());
 }

@@ -1,4 +1,4 @@
-// What pen-downs must be to be read.
+// Validation of pen-downs before they are read.
 #pragma once
 
 #include <span>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <Eigen/Geometry>
 
@@ -59,15 +58,13 @@ void append_element(std::span<const Point> control_points, std::vector<Point>& l
 
 }  // namespace
 
-void points_along(std::span<const Point> path, double length, std::span<Point> points) {
-  walk(path, 0.0, length / static_cast<double>(points.size() - 1), points);
-}
-
 std::vector<Point> points_along(std::span<const Point> path, double length, std::size_t count) {
   std::vector<Point> points(count);
-  points_along(path, length, points);
+  walk(path, 0.0, length / static_cast<double>(count - 1), points);
   return points;
 }
+
+Point halfway(std::span<const Point> path) { return points_along(path, path_length(path), 3)[1]; }
 
 std::vector<Point> without_jitter(std::span<const Point> path, double spacing) {
   std::vector<Point> kept;
@@ -115,6 +112,12 @@ std::vector<Point> middle_line(const Stroke& stroke, const Placement& placement)
     append_element(points, line);
   }
   return line;
+}
+
+std::vector<std::vector<Point>> middle_lines(const Character& character) {
+  std::vector<std::vector<Point>> lines;
+  for (const Stroke& stroke : strokes(character)) lines.push_back(middle_line(stroke));
+  return lines;
 }
 
 double mean_distance(const Outline& one, const Outline& other) {

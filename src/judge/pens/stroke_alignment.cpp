@@ -14,22 +14,21 @@
 namespace calligraphy {
 namespace {
 
-/// The points of a longer path are further apart than those of the line.
+/// The points of a path that would need more are further apart than those of the line.
 constexpr double max_path_points = 4000.0;
 constexpr int max_moves = 10;
 constexpr double min_move = 1e-3;   // of the line's length, and [rad]
 constexpr double max_slant = 0.35;  // 20 degrees [rad]
 
-/// From which pair an optimal alignment came to this one.
+/// Step by which an optimal alignment reached a pair of points.
 enum class Move : std::uint8_t { begin, both, path, line };
 
 double cross(const Point& one, const Point& other) { return one.x() * other.y() - one.y() * other.x(); }
 
 struct Placed {
   Alignment alignment;
-  // Of the pairs of points:
-  Point path_mean = Point::Zero(), line_mean = Point::Zero();
-  double turn = 0.0;  ///< by which the path is to be turned onto the line (least squares) [rad]
+  Point path_mean = Point::Zero(), line_mean = Point::Zero();  ///< means over the pairs of points
+  double turn = 0.0;  ///< turn of the path onto the line, by least squares over the pairs [rad]
 };
 
 Placed align_in_place(std::span<const Point> path, std::span<const Point> line) {
@@ -85,11 +84,11 @@ Placed align_in_place(std::span<const Point> path, std::span<const Point> line) 
                            cosine - pairs * placed.path_mean.dot(placed.line_mean));
   placed.path_mean += origin;
   placed.line_mean += origin;
-  // Of the path's own points, from those at even steps of its length.
-  double way = 0.0;
+  // Places of the path's own points, from those at even steps along it.
+  double along = 0.0;
   for (std::size_t k = 0; k < path.size(); ++k) {
-    if (k > 0) way += (path[k] - path[k - 1]).norm();
-    const double row = length > 0.0 ? way / length * pieces : 0.0;
+    if (k > 0) along += (path[k] - path[k - 1]).norm();
+    const double row = length > 0.0 ? along / length * pieces : 0.0;
     result.places.push_back(places[std::min(static_cast<std::size_t>(std::lround(row)), rows - 1)]);
   }
   return placed;
@@ -101,7 +100,7 @@ Alignment align(std::span<const Point> path, std::span<const Point> line) {
   Placed placed = align_in_place(path, line);
   std::vector<Point> moved(path.begin(), path.end());
   const double length = path_length(line);
-  for (const double max_turn : {0.0, max_slant}) {  // a turn is known once the path lies on the line
+  for (const double max_turn : {0.0, max_slant}) {  // the turn can be determined once the path lies on the line
     double turned = 0.0;
     for (int i = 0; i < max_moves; ++i) {
       const bool begins = placed.alignment.begin == 0.0, ends = placed.alignment.end == 1.0;

@@ -1,4 +1,4 @@
-// How far along a line a pen was, in order: the part of the line that its path follows.
+// How far a pen got along a line, in order: the part of the line that its path follows.
 #pragma once
 
 #include <span>
@@ -10,15 +10,15 @@ namespace calligraphy {
 
 /// Where a path lies along a line.
 struct Alignment {
-  double begin = 0.0, end = 0.0;  ///< the part of the line that the path follows, from and to this share of it [1]
-  std::vector<double> places;     ///< of each point of the path, a share of the line, never decreasing [1]
+  double begin = 0.0, end = 0.0;  ///< the part of the line that the path follows, from one share of it to another [1]
+  std::vector<double> places;     ///< place of each point of the path, as a share of the line, never decreasing [1]
 };
 
-/// Aligns all of a path with the part of a line that it follows at the least mean distance, in order: subsequence
-/// dynamic time warping (Müller, Information Retrieval for Music and Motion, 2007, sec. 4.4) of points at even steps.
-/// A displaced or slanted path is not a shorter one: until it reaches both ends of the line, it is turned and moved
-/// onto it, or where it reaches one end, moved so that its own end is there, and aligned again. It is turned by up to
-/// 20 degrees. The line has at least two points, and the path one.
+/// Aligns a whole path with the part of a line that it follows at the least mean distance, in order: subsequence
+/// dynamic time warping (Müller, Information Retrieval for Music and Motion, 2007, sec. 4.4) of points at even steps. A
+/// displaced or slanted path must not count as a shorter one: until it reaches both ends of the line, it is turned and
+/// moved onto the line, or, if it reaches one end, moved so that its own end is there, and aligned again. It is turned
+/// by at most 20 degrees. The line has at least two points, and the path at least one.
 Alignment align(std::span<const Point> path, std::span<const Point> line);
 
 }  // namespace calligraphy

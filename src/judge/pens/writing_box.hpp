@@ -1,4 +1,4 @@
-// The box about the pen-downs of a character.
+// The bounding box of the pen-downs of a character.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace calligraphy {
 
-/// Taps too; empty without pen-downs.
+/// The box of all pen-downs, taps included; empty if there are none.
 inline Eigen::AlignedBox2d box_of_all(std::span<const PenPath> paths) {
   Eigen::AlignedBox2d box;
   for (const PenPath& path : paths) {
@@ -19,7 +19,7 @@ inline Eigen::AlignedBox2d box_of_all(std::span<const PenPath> paths) {
   return box;
 }
 
-/// By how much lengths are to be shortened that are given for writing as large as the em: 1 if it is as large.
+/// Factor for lengths that hold for writing as large as the em: below 1 for smaller writing.
 inline double shortening(std::span<const PenPath> paths) {
   const Eigen::AlignedBox2d box = box_of_all(paths);
   return box.isEmpty() ? 1.0 : std::min(1.0, box.sizes().maxCoeff());

@@ -1,6 +1,5 @@
 #include "assignment.hpp"
 
-#include <algorithm>
 #include <limits>
 
 namespace calligraphy {
@@ -8,7 +7,7 @@ namespace calligraphy {
 std::vector<std::optional<std::size_t>> assign(const std::vector<std::vector<double>>& costs, std::size_t columns,
                                                double unmatched) {
   const std::size_t rows = costs.size();
-  // Every row may be left over in a column of its own. A column that is given a row saves what it would cost alone.
+  // A row without a column is assigned to one of its own. A column with a row saves what it would cost alone.
   const std::size_t width = columns + rows;
   const auto cost = [&](std::size_t row, std::size_t column) {
     return column < columns ? costs[row][column] - unmatched : unmatched;

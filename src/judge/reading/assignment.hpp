@@ -1,4 +1,4 @@
-// Who gets what, at the least cost in all.
+// Assignment of rows to columns at the least total cost.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 namespace calligraphy {
 
-/// For each row the column it is given, or none. `costs[row][column]`; a row left without costs `unmatched`, and so
-/// does a column that no row is given. The least sum there is (Kuhn 1955, Munkres 1957, with potentials as Jonker and
-/// Volgenant 1987). O(rows^2 (rows + columns)).
+/// The column assigned to each row, if any, at the least sum of `costs[row][column]`; each row without a column and
+/// each column without a row costs `unmatched` (Kuhn 1955, Munkres 1957, with potentials as in Jonker and Volgenant
+/// 1987). O(rows^2 (rows + columns)).
 std::vector<std::optional<std::size_t>> assign(const std::vector<std::vector<double>>& costs, std::size_t columns,
                                                double unmatched);
 

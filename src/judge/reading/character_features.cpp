@@ -13,7 +13,7 @@ using detail::judge_constants;
 constexpr Eigen::Index values_per_stroke = 2 * points_in_stroke;
 constexpr Eigen::Index pieces_per_point = Outline::RowsAtCompileTime / points_in_stroke;
 
-/// Another code of a character, or a part of one: not what somebody writes.
+/// Whether people write it: not a part of a character, nor another code for one.
 bool is_written(char32_t code) {
   const bool is_radical = code >= 0x2E80 && code < 0x2FE0, is_stroke = code >= 0x31C0 && code < 0x31F0;
   return !is_radical && !is_stroke && !(code >= 0xF900 && code < 0xFB00) && !(code >= 0x2F800 && code < 0x2FA20);
@@ -32,7 +32,7 @@ CharacterFeature character_feature(std::span<const Outline> strokes) {
   if (row == 0) return {};
   points.rowwise() -= points.colwise().mean().eval();
   const Point deviation = (points.colwise().squaredNorm() / static_cast<double>(row)).cwiseSqrt().transpose();
-  // The slope of a lone line is all that there is to see.
+  // The slope of a lone line is all that can be seen of it.
   const double share = strokes.size() == 1 ? 1.0 : judge_constants.min_deviation_share;
   const double least = std::max(share * deviation.maxCoeff(), 1e-9);
   const double wanted = judge_constants.feature_deviation;
@@ -42,9 +42,7 @@ CharacterFeature character_feature(std::span<const Outline> strokes) {
 
 CharacterFeature character_feature(const Character& character) {
   std::vector<Outline> outlines;
-  for (const Stroke& stroke : strokes(character)) {
-    outlines.push_back(outline(middle_line(stroke, {Point::Zero(), 1.0})));
-  }
+  for (const std::vector<Point>& line : middle_lines(character)) outlines.push_back(outline(line));
   return character_feature(outlines);
 }
 

@@ -1,4 +1,4 @@
-// What characters look like as a whole, stroke by stroke, to tell one from another.
+// The appearance of a whole character, stroke by stroke, for telling one from another.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +15,18 @@
 
 namespace calligraphy {
 
-/// Points of each stroke in a feature.
+/// Number of points of each stroke in a feature.
 inline constexpr Eigen::Index points_in_stroke = 8;
 
-/// A column: x and y of these points of each stroke in order, in the frame of the whole writing: around their centre,
-/// with the same standard deviation each way, unless the writing is a line.
+/// A column with the x and y of these points of each stroke, in order: centred, and with the same standard deviation
+/// along both axes unless the writing is a line.
 using CharacterFeature = Eigen::VectorXf;
 
-/// Of the outlines of pen-downs, or of a character.
+/// The feature of the outlines of pen-downs, or of a character.
 CharacterFeature character_feature(std::span<const Outline> strokes);
 CharacterFeature character_feature(const Character& character);
 
-/// Root mean square of the distances of the points of two characters of as many strokes [em].
+/// RMS distance between the points of two characters with the same number of strokes [em].
 double apart(const Eigen::Ref<const CharacterFeature>& one, const Eigen::Ref<const CharacterFeature>& other);
 
 /// The features of the characters of a set, in all their forms.
@@ -34,22 +34,22 @@ class CharacterFeatures {
  public:
   explicit CharacterFeatures(const CharacterSet& set);
 
-  /// One of them, and how far it is from what was asked for.
+  /// One of the characters, and how far it is from a given feature.
   struct Neighbour {
     char32_t code = 0;
     double distance = std::numeric_limits<double>::infinity();  ///< [em]
-    std::size_t strokes = 0, index = 0;                         ///< its place
+    std::size_t strokes = 0, index = 0;                         ///< where its feature is stored
   };
 
   std::size_t size() const { return size_; }
-  /// Every character of as many strokes, not sorted.
+  /// Every character with as many strokes, not sorted.
   std::vector<Neighbour> neighbours(const CharacterFeature& feature) const;
-  /// The nearest one of as many strokes that is not `except`.
+  /// The nearest one with as many strokes that is not `except`.
   std::optional<Neighbour> nearest(const CharacterFeature& feature, char32_t except) const;
   CharacterFeature feature(const Neighbour& neighbour) const;
 
  private:
-  /// Characters of as many strokes.
+  /// Characters with the same number of strokes.
   struct Group {
     std::vector<char32_t> codes;
     Eigen::MatrixXf features;  ///< a column each

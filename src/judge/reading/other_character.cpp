@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -18,13 +17,13 @@ using detail::judge_constants;
 /// The points of a stroke.
 using StrokePoints = Eigen::Matrix<float, points_in_stroke, 2, Eigen::RowMajor>;
 
-/// The rotation in a map without reflection: of all rotations the nearest one.
+/// The rotation nearest to a map without reflection.
 Eigen::Matrix2d rotation_of(const Eigen::Matrix2d& map) {
   return Eigen::Rotation2Dd(std::atan2(map(1, 0) - map(0, 1), map(0, 0) + map(1, 1))).toRotationMatrix();
 }
 
-/// With strokes in the order and direction in which pen-downs are read as strokes of the character that was asked for;
-/// empty unless each wrote one.
+/// The feature with its strokes in the order and direction in which the pen-downs were read as strokes of the character
+/// asked for; empty unless each wrote exactly one.
 CharacterFeature as_read(const CharacterFeature& feature, const StrokeReading& reading) {
   CharacterFeature read(feature.size());
   for (const ReadingStep& step : reading.steps) {
@@ -44,7 +43,7 @@ std::optional<OtherCharacter> other_character(const CharacterFeatures& character
   const CharacterFeature asked = character_feature(asked_for);
   CharacterFeatures::Neighbour nearest;
   double from_asked = std::numeric_limits<double>::infinity(), from_asked_as_read = from_asked;
-  // Upright as the reading has it, and as it is: the reading of another character may turn it wrongly.
+  // Both turned upright as in the reading and as it is: the reading of another character may turn it wrongly.
   const Eigen::Matrix2d as_it_is = Eigen::Matrix2d::Identity();
   for (const Eigen::Matrix2d& turn : {rotation_of(reading.costs->fit().linear), as_it_is}) {
     std::vector<Outline> drawn;
@@ -58,7 +57,7 @@ std::optional<OtherCharacter> other_character(const CharacterFeatures& character
   if (nearest.code == 0) return std::nullopt;
   // A careless hand needs more evidence than a neat one.
   const double doubt = judge_constants.carelessness * nearest.distance / std::sqrt(static_cast<double>(paths.size()));
-  // Along the line from one character to the other, which are so far apart.
+  // Along the line from one character to the other; `between` is its length.
   const auto is_clear = [&](double from_one, double between) {
     const double past_middle = (from_one * from_one - nearest.distance * nearest.distance) / (2.0 * between);
     return past_middle > judge_constants.beyond_middle * 0.5 * between + doubt;

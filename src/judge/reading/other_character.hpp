@@ -1,4 +1,4 @@
-// Whether somebody wrote another character than the one that was asked for.
+// Whether somebody wrote a character other than the one asked for.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@
 
 namespace calligraphy {
 
-/// A character that the writing is clearly nearer to than to the one that was asked for.
+/// A character to which the writing is clearly nearer than to the one asked for.
 struct OtherCharacter {
   char32_t code = 0;
   bool is_lookalike = false;  ///< the two hardly differ
 };
 
-/// The nearest character of as many strokes, if the writing lies clearly on its side of the middle between both. One
-/// measure for strangers and near twins alike: the place of the writing on the way from one character to the other. The
-/// writing is turned upright, as the reading has it; its strokes in another order or direction are not held against the
-/// character that was asked for.
+/// The nearest character with as many strokes, if the writing is clearly on its side of the middle between the two. One
+/// measure serves for strangers and near twins alike: how far the writing is along the way from one character to the
+/// other. The writing is turned upright, as in the reading; strokes in another order or direction are not held against
+/// the character asked for.
 std::optional<OtherCharacter> other_character(const CharacterFeatures& characters, const Character& asked_for,
                                               std::span<const PenPath> paths, const StrokeReading& reading);
 

@@ -10,11 +10,26 @@ namespace {
 
 using detail::judge_constants;
 
-constexpr double impossible = 9.0;  // finite, since assign() takes differences [em]
+constexpr double impossible = 9.0;  // finite, because assign() computes differences [em]
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr PairCost impossible_pair = {never, 0.0, 0.0, false};
 
 }  // namespace
+
+StrokeOutlines::StrokeOutlines(const Character& character) {
+  const std::vector<std::vector<Point>> lines = middle_lines(character);
+  for (std::size_t first = 0; first < lines.size(); ++first) {
+    std::vector<Point> line;
+    double length = 0.0;
+    for (std::size_t count = 1; count <= max_joined && first + count <= lines.size(); ++count) {
+      const std::vector<Point>& last = lines[first + count - 1];
+      line.insert(line.end(), last.begin(), last.end());
+      length += path_length(last);
+      const Outline whole = outline(line);
+      runs_[count - 1].push_back({whole, centred(whole), length, length_of(whole)});
+    }
+  }
+}
 
 double trust_in_direction(double length) {
   return std::min(1.0, judge_constants.least_trust + length / judge_constants.trust_length);
@@ -82,7 +97,7 @@ void StrokeCosts::compare_joined(std::size_t path) {
     for (std::size_t count = 2; count <= std::min(max_joined, strokes() - first); ++count) {
       const StrokeRun& run = strokes_->run(first, count);
       alone = std::min(alone, single(path, first + count - 1).cost);
-      if (lengths_[path] < judge_constants.min_joined_length * run.way) continue;
+      if (lengths_[path] < judge_constants.min_joined_length * run.line_length) continue;
       const PairCost pair = compare(placed_[path], shapes_[path], run);
       if (pair.cost >= std::min(judge_constants.max_joined_or_broken_cost, share * alone)) continue;
       joined_[(path * strokes() + first) * max_joined + count - 1] = pair;

@@ -1,6 +1,7 @@
-// What it costs to take each pen-down for each stroke, once the writing is laid on the character.
+// What it costs to read each pen-down as each stroke, once the writing is aligned with the character.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -8,11 +9,34 @@
 #include <calligraphy/judge/pen_path.hpp>
 
 #include "judge/pens/resemblance.hpp"
-#include "stroke_outlines.hpp"
 
 namespace calligraphy {
 
-/// A pen-down as it came.
+/// The most strokes that are read as written without lifting the pen.
+inline constexpr std::size_t max_joined = 6;
+
+/// What a pen draws that writes some strokes one after the other, joined by straight lines.
+struct StrokeRun {
+  Outline line;
+  Outline shape;       ///< `line`, centred
+  double length;       ///< total length of the strokes alone [em]
+  double line_length;  ///< length of `line`, joining lines included [em]
+};
+
+/// The strokes of a character, alone and in runs of up to max_joined, prepared for comparison with a pen.
+class StrokeOutlines {
+ public:
+  explicit StrokeOutlines(const Character& character);
+
+  std::size_t count() const { return runs_[0].size(); }
+  const StrokeRun& run(std::size_t first, std::size_t strokes) const { return runs_[strokes - 1][first]; }
+  double length(std::size_t stroke) const { return runs_[0][stroke].length; }
+
+ private:
+  std::array<std::vector<StrokeRun>, max_joined> runs_;  ///< by the number of strokes and the first of them
+};
+
+/// A pen-down as it was written, before any alignment.
 struct DrawnLine {
   Outline line;
   Point begin, end;
@@ -21,14 +45,14 @@ struct DrawnLine {
 
 std::vector<DrawnLine> drawn_lines(std::span<const PenPath> paths);
 
-/// A pen-down taken for a stroke, or for several in a row.
+/// The cost of reading a pen-down as a stroke, or as several in a row.
 struct PairCost {
-  double cost;           ///< mean distance, and what the directions say against it; infinite: impossible [em]
-  double with, against;  ///< accord with the stroke, and with the stroke written backwards [1]
+  double cost;           ///< mean distance, plus a penalty for their directions; infinite: impossible [em]
+  double with, against;  ///< accord() with the stroke, and with the stroke written backwards [1]
   bool backwards;        ///< it fits better backwards
 };
 
-/// Costs of all pairs for one way to lay the writing on the character.
+/// The costs of all pairs at one alignment of the writing with the character.
 class StrokeCosts {
  public:
   StrokeCosts(const StrokeOutlines& strokes, std::span<const DrawnLine> drawn, const AffineMap& fit);
@@ -36,23 +60,23 @@ class StrokeCosts {
   std::size_t paths() const { return placed_.size(); }
   std::size_t strokes() const { return strokes_->count(); }
   const AffineMap& fit() const { return fit_; }
-  /// A pen-down, laid on the character, and it and the next one as one line.
+  /// The aligned outline of a pen-down, and of it and the next one as one line.
   const Outline& placed(std::size_t path) const { return placed_[path]; }
   const Outline& placed_with_next(std::size_t path) const { return placed_with_next_[path]; }
   double length(std::size_t path) const { return lengths_[path]; }
   bool is_tap(std::size_t path) const { return lengths_[path] < tap_length; }
 
   const PairCost& single(std::size_t path, std::size_t stroke) const { return singles_[path * strokes() + stroke]; }
-  /// A pen-down as `count` strokes in a row, from 2 on: possible where it is long enough, resembles them, and clearly
-  /// more than any of them alone.
+  /// A pen-down as `count` strokes in a row, at least 2: possible if it is long enough and resembles them clearly more
+  /// than any of them alone.
   const PairCost& joined(std::size_t path, std::size_t first, std::size_t count) const {
     return joined_[(path * strokes() + first) * max_joined + count - 1];
   }
-  /// A pen-down and the next one as one stroke: possible where the second goes on where the first ended, and both
-  /// together resemble it hardly less than one of them alone.
+  /// A pen-down and the next one as one stroke: possible if the second continues where the first ended, and both
+  /// together resemble it hardly less than either alone.
   const PairCost& broken(std::size_t path, std::size_t stroke) const { return broken_[path * strokes() + stroke]; }
 
-  /// Outlines compared with each other so far.
+  /// Number of comparisons of outlines so far.
   int comparisons() const { return comparisons_; }
 
  private:
@@ -64,14 +88,14 @@ class StrokeCosts {
   const StrokeOutlines* strokes_;
   AffineMap fit_;
   std::vector<Outline> placed_, shapes_, placed_with_next_;
-  std::vector<double> lengths_;    ///< of the pen-downs [em]
+  std::vector<double> lengths_;    ///< lengths of the pen-downs [em]
   std::vector<PairCost> singles_;  ///< by pen-down, then by stroke
   std::vector<PairCost> joined_;   ///< by pen-down, then by the first stroke, then by their number
   std::vector<PairCost> broken_;   ///< by the first of two pen-downs, then by stroke
   int comparisons_ = 0;
 };
 
-/// How much the direction of a stroke tells: less of short ones.
+/// How much the direction of a stroke of this length counts: less for a short one.
 double trust_in_direction(double length);
 
 }  // namespace calligraphy

@@ -10,14 +10,14 @@ namespace {
 
 using detail::judge_constants;
 
-constexpr double almost = 0.999;  // evidence that is not enough
+constexpr double almost = 0.999;  // evidence just short of a remark
 
 }  // namespace
 
 double length_share(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
   double length = reading.costs->length(step.path);
   if (step.paths > 1) length += reading.costs->length(step.path + 1);
-  const double whole = strokes.run(step.stroke, step.strokes).way;
+  const double whole = strokes.run(step.stroke, step.strokes).line_length;
   return whole > 0.0 ? length / whole : 1.0;
 }
 
@@ -25,13 +25,13 @@ StrokeDirection direction_of(const ReadingStep& step, const StrokeReading& readi
   if (reading.costs->is_tap(step.path)) return {};
   const StrokeRun& run = strokes.run(step.stroke, step.strokes);
   const double share = length_share(step, reading, strokes);
-  const double left_out = (1.0 - share) * run.way;
+  const double left_out = (1.0 - share) * run.line_length;
   if (share < judge_constants.least_share && left_out > judge_constants.sure_length) {
     return {WritingDirection::neither,
             std::min(judge_constants.least_share / share, left_out / judge_constants.sure_length)};
   }
   const PairCost& pair = reading.pair(step);
-  // The angle over the one within which it runs so, beyond what is allowed to short strokes.
+  // The angle beyond what short strokes are allowed, over the largest permitted one.
   const auto off = [](double accord, double trusted_length, double within) {
     const double allowed = (1.0 - trust_in_direction(trusted_length)) * judge_constants.untrusted_angle;
     return std::max(0.0, std::acos(std::clamp(accord, -1.0, 1.0)) - allowed) / within;
@@ -40,7 +40,7 @@ StrokeDirection direction_of(const ReadingStep& step, const StrokeReading& readi
     const double off_course = off(pair.with, run.length, judge_constants.forwards_angle);
     if (off_course <= 1.0) return {WritingDirection::forwards, std::min(off_course, almost)};
   } else {
-    // Something much longer than a dot is no dot written backwards.
+    // Something much longer than a dot is not a dot written backwards.
     const double length = std::max(run.length, reading.costs->length(step.path));
     const double off_reverse = off(pair.against, length, judge_constants.backwards_angle);
     if (off_reverse <= 1.0) return {WritingDirection::backwards, 1.0 / std::max(off_reverse, 1.0 - almost)};

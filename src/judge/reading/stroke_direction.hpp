@@ -1,4 +1,4 @@
-// In which direction a stroke was written, and whether it was all of it.
+// In which direction a stroke was written, and whether all of it was.
 #pragma once
 
 #include <calligraphy/judge/stroke_matching.hpp>
@@ -7,15 +7,15 @@
 
 namespace calligraphy {
 
-/// Length of the pen-downs of a step over that of the strokes that it takes them for.
+/// Length of the pen-downs of a step over that of the strokes as which it reads them.
 double length_share(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes);
 
 struct StrokeDirection {
   WritingDirection direction = WritingDirection::unknown;
-  double evidence = 0.0;  ///< that it is wrong, or the shape: at least 1 unless it runs forwards
+  double evidence = 0.0;  ///< that the direction or the shape is wrong: at least 1 unless forwards [1]
 };
 
-/// Direction in which what a step takes was written, as far as its length allows to tell.
+/// The direction in which the strokes of a step were written, as far as their length reveals it.
 StrokeDirection direction_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes);
 
 }  // namespace calligraphy

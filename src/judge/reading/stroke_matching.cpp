@@ -12,6 +12,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 
+#include "base/require.hpp"
 #include "judge/judge_constants.hpp"
 #include "judge/pens/require_paths.hpp"
 #include "judge/pens/writing_box.hpp"
@@ -25,8 +26,7 @@ namespace {
 
 using detail::judge_constants;
 
-/// Of the pen-downs that wrote nothing and follow each other up to this one, or from it on, one that runs forwards
-/// along a stroke.
+/// Among the pen-downs without a stroke directly before or after this one, one that runs forwards along the stroke.
 std::optional<std::size_t> correction_beside(const StrokeReading& reading, std::size_t path, std::size_t stroke) {
   std::vector<bool> is_extra(reading.costs->paths(), false);
   for (const ReadingStep& step : reading.steps) {
@@ -45,8 +45,8 @@ std::optional<std::size_t> correction_beside(const StrokeReading& reading, std::
   return std::nullopt;
 }
 
-/// A stroke written backwards and at once again forwards, or the other way round, was written forwards; the attempt
-/// backwards is extra.
+/// A stroke written backwards and at once again forwards, or vice versa, counts as written forwards; the backwards
+/// attempt is extra.
 void prefer_corrections(StrokeReading& reading) {
   for (ReadingStep& wrong : reading.steps) {
     if (wrong.paths != 1 || wrong.strokes != 1) continue;
@@ -61,7 +61,7 @@ void prefer_corrections(StrokeReading& reading) {
   }
 }
 
-/// Of both parts where the stroke was broken.
+/// Mean distance of what a step takes from its strokes; of both parts of a broken stroke together.
 double distance_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
   const StrokeCosts& costs = *reading.costs;
   const Outline& line = strokes.run(step.stroke, step.strokes).line;
@@ -69,7 +69,8 @@ double distance_of(const ReadingStep& step, const StrokeReading& reading, const 
   return mean_distance(step.paths > 1 ? costs.placed_with_next(step.path) : costs.placed(step.path), wanted);
 }
 
-/// What a pen-down that wrote nothing attempted: the stroke that it resembles most, along or against which it runs.
+/// Finds what a pen-down that wrote no stroke attempted: the stroke it resembles most among those along or against
+/// which it runs.
 void find_attempt(DrawnStroke& drawn, std::size_t path, const StrokeReading& reading, const StrokeOutlines& strokes) {
   double least = judge_constants.left_over_cost;
   for (std::size_t stroke = 0; stroke < strokes.count() && !drawn.tap; ++stroke) {
@@ -96,17 +97,17 @@ void require_valid(std::span<const Character> accepted) {
   }
 }
 
-/// The pen-downs read as one of the accepted forms; without remarks.
-struct Matched {
-  std::unique_ptr<const StrokeOutlines> outlines;  ///< to which the costs of the reading refer
+/// The pen-downs read as one of the accepted forms, without remarks.
+struct FormMatch {
+  std::unique_ptr<const StrokeOutlines> outlines;  ///< referred to by the costs of the reading
   StrokeReading reading;
   MatchResult result;
-  double price = 0.0;        ///< of the reading [em]
-  std::size_t mistakes = 0;  ///< remarks of JudgeTolerances::normal(), whatever is told in the end
+  double price = 0.0;        ///< price of the reading [em]
+  std::size_t mistakes = 0;  ///< number of remarks at JudgeTolerances::normal(), whatever is reported in the end
 };
 
-Matched match_one(const Character& character, std::span<const PenPath> paths, std::span<const PenPath> steady) {
-  Matched matched;
+FormMatch match_form(const Character& character, std::span<const PenPath> paths, std::span<const PenPath> steady) {
+  FormMatch matched;
   matched.outlines = std::make_unique<const StrokeOutlines>(character);
   const StrokeOutlines& outlines = *matched.outlines;
   StrokeReading& reading = matched.reading;
@@ -144,6 +145,10 @@ Matched match_one(const Character& character, std::span<const PenPath> paths, st
 
 }  // namespace
 
+void validate(const JudgeTolerances& tolerances) {
+  require_above_zero("tolerances.evidence", tolerances.evidence, "");
+}
+
 const char* to_string(WritingDirection direction) noexcept {
   switch (direction) {
     case WritingDirection::forwards:
@@ -177,31 +182,32 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   const double spacing = judge_constants.pen_spacing * shortening(paths);
   std::vector<PenPath> steady;
   for (const PenPath& path : paths) steady.push_back(without_jitter(path, spacing));
-  std::vector<Matched> matched;
+  std::vector<FormMatch> matched;
   std::size_t best = 0;
-  std::optional<std::size_t> as_many;  // of those of as many strokes as pen-downs the best one
+  std::optional<std::size_t> best_of_same_count;  // the best form with as many strokes as there are pen-downs
   double least_price = std::numeric_limits<double>::infinity();
   for (const Character& character : accepted) {
-    least_price = std::min(least_price, matched.emplace_back(match_one(character, paths, steady)).price);
+    least_price = std::min(least_price, matched.emplace_back(match_form(character, paths, steady)).price);
   }
-  // Of forms of about the same price the one with the fewest mistakes.
-  const auto rank = [&](const Matched& form) {
+  // Among forms of about the same price, the one with the fewest mistakes comes first.
+  const auto rank = [&](const FormMatch& form) {
     const bool is_dear = form.price > judge_constants.max_similar_price * least_price;
     return std::tuple(is_dear, is_dear ? 0 : form.mistakes, form.price);
   };
   for (std::size_t i = 0; i < accepted.size(); ++i) {
-    const Matched& next = matched[i];
+    const FormMatch& next = matched[i];
     if (rank(next) < rank(matched[best])) best = i;
     if (next.outlines->count() != steady.size()) continue;
-    if (!as_many || rank(next) < rank(matched[*as_many])) as_many = i;
+    if (!best_of_same_count || rank(next) < rank(matched[*best_of_same_count])) best_of_same_count = i;
   }
   std::optional<OtherCharacter> other;
-  // Of another character a form of fewer or more strokes may be a little less unlike than one with which it can be
-  // compared; right writing with a mistake is like its own form.
+  // Writing of another character may resemble a form of fewer or more strokes slightly better than the one it can be
+  // compared with; writing of the right character resembles its own form even with a mistake.
   const bool is_like_best = matched[best].price < judge_constants.unlike_price * static_cast<double>(steady.size());
-  if (others && as_many && (best == *as_many || !is_like_best)) {
-    other = other_character(others->features(), accepted[*as_many], steady, matched[*as_many].reading);
-    if (other) best = *as_many;
+  if (others && best_of_same_count && (best == *best_of_same_count || !is_like_best)) {
+    const std::size_t compared = *best_of_same_count;
+    other = other_character(others->features(), accepted[compared], steady, matched[compared].reading);
+    if (other) best = compared;
   }
   MatchResult result = std::move(matched[best].result);
   result.accepted = static_cast<int>(best);

@@ -1,7 +1,6 @@
 #include "stroke_reading.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -11,10 +10,9 @@
 
 #include "assignment.hpp"
 #include "judge/judge_constants.hpp"
-#include "longest_rise.hpp"
-#include "reading_in_order.hpp"
 #include "stroke_direction.hpp"
 #include "writing_fit.hpp"
+#include "writing_order.hpp"
 
 namespace calligraphy {
 namespace {
@@ -23,9 +21,52 @@ using detail::judge_constants;
 
 using Costs = std::shared_ptr<const StrokeCosts>;
 
-/// Of another order, by a hand of this mean cost [em].
+/// The least saving for which another order is believed of a hand with this mean cost [em].
 double least_saving(double mean_cost) {
   return std::max(judge_constants.min_saving, judge_constants.saving_factor * mean_cost);
+}
+
+/// The cheapest reading of the pen-downs, taken in this order, as the strokes in theirs: like the edits that turn one
+/// word into another (Needleman and Wunsch 1970), with joined and broken strokes as additional edits.
+StrokeReading read_in_this_order(Costs costs, std::span<const std::size_t> order) {
+  struct Best {
+    double cost = std::numeric_limits<double>::infinity();
+    ReadingStep step;
+  };
+  const std::size_t paths = order.size(), strokes = costs->strokes();
+  const double unlikely = judge_constants.unlikely_count_cost;
+  const double join_price = judge_constants.join_cost + (paths >= strokes ? unlikely : 0.0);
+  const double break_price = judge_constants.break_cost + (paths <= strokes ? unlikely : 0.0);
+  std::vector<std::vector<Best>> best(paths + 1, std::vector<Best>(strokes + 1));
+  best[0][0].cost = 0.0;
+  for (std::size_t i = 0; i <= paths; ++i) {
+    const std::size_t path = i < paths ? order[i] : paths;
+    for (std::size_t stroke = 0; stroke <= strokes; ++stroke) {
+      const double before = best[i][stroke].cost;
+      const auto reach = [&](std::size_t more_paths, std::size_t more_strokes, double cost) {
+        Best& then = best[i + more_paths][stroke + more_strokes];
+        if (before + cost < then.cost) then = {before + cost, {path, more_paths, stroke, more_strokes, cost}};
+      };
+      if (stroke < strokes) reach(0, 1, judge_constants.left_over_cost);
+      if (i == paths) continue;
+      reach(1, 0, costs->is_tap(path) ? 0.0 : judge_constants.left_over_cost);
+      if (stroke == strokes) continue;
+      reach(1, 1, costs->single(path, stroke).cost);
+      for (std::size_t more = 2; more <= std::min(max_joined, strokes - stroke); ++more) {
+        reach(1, more, costs->joined(path, stroke, more).cost + join_price * static_cast<double>(more - 1));
+      }
+      if (i + 1 < paths && order[i + 1] == path + 1) reach(2, 1, costs->broken(path, stroke).cost + break_price);
+    }
+  }
+  StrokeReading reading{{}, best[paths][strokes].cost, std::move(costs)};
+  for (std::size_t i = paths, stroke = strokes; i > 0 || stroke > 0;) {
+    const ReadingStep& step = best[i][stroke].step;
+    reading.steps.push_back(step);
+    i -= step.paths;
+    stroke -= step.strokes;
+  }
+  std::reverse(reading.steps.begin(), reading.steps.end());
+  return reading;
 }
 
 class Reader {
@@ -33,9 +74,9 @@ class Reader {
   Reader(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths)
       : character_(character), strokes_(strokes), paths_(paths), drawn_(drawn_lines(paths)) {}
 
-  /// From the box of the pen-downs, or from where they are if that fits clearly better at once; then, where there is
-  /// something to remark or nothing fits well, from the box turned either way: a slanted hand. Of a single line nobody
-  /// can tell a slanted hand from a slanted stroke.
+  /// Starts from the box of the pen-downs, or from where they are if that fits clearly better at once. If there is then
+  /// something to remark or the fit is poor, the hand may be slanted: starts from the box turned either way too. With a
+  /// single line, nobody can tell a slanted hand from a slanted stroke.
   StrokeReading read() {
     const Start boxed = begin(box_of_turned(0.0)), here = begin(AffineMap());
     Pair best = refine(here.cost() < boxed.cost() - judge_constants.min_saving ? here : boxed);
@@ -48,7 +89,7 @@ class Reader {
       }
       chosen = choose(best);
     }
-    pair_left_overs(chosen);
+    pair_leftovers(chosen);
     unpair_attempts(chosen);
     chosen.comparisons = comparisons_;
     return chosen;
@@ -75,9 +116,9 @@ class Reader {
     return {box.scale.asDiagonal() * turn, box.offset};
   }
 
-  /// A pen-down in the place of a stroke that nothing else wrote is that stroke, misplaced or of another shape; so is
-  /// one that resembles it, wherever it comes in the order.
-  static void pair_left_overs(StrokeReading& reading) {
+  /// An extra pen-down in the place of a missing stroke is that stroke, misplaced or of another shape; so is one that
+  /// resembles the stroke, wherever it comes in the order.
+  static void pair_leftovers(StrokeReading& reading) {
     const StrokeCosts& costs = *reading.costs;
     for (std::size_t i = 0; i < reading.steps.size(); ++i) {
       const ReadingStep& extra = reading.steps[i];
@@ -101,8 +142,8 @@ class Reader {
     }
   }
 
-  /// A pen-down beside an attempt at a stroke, that lies on this stroke too, is another one, not the stroke in whose
-  /// place it is and that nothing else wrote.
+  /// A pen-down that lies on the same stroke as an attempt beside it is another attempt at it, not the missing stroke
+  /// in whose place it comes.
   void unpair_attempts(StrokeReading& reading) const {
     const StrokeCosts& costs = *reading.costs;
     std::vector<ReadingStep> missing;
@@ -134,7 +175,7 @@ class Reader {
     return {{read_in_order(costs), read_freely(costs)}, fit};
   }
 
-  /// Fits the writing to the reading and reads again, as long as the cost falls.
+  /// Fits the writing to the reading and reads it again, as long as the cost falls.
   StrokeReading refine(Rule rule, StrokeReading reading, const AffineMap& start) {
     for (int i = 0; i < judge_constants.max_refits; ++i) {
       const std::optional<AffineMap> fit = fit_writing(reading, strokes_, drawn_, start);
@@ -149,7 +190,7 @@ class Reader {
   Pair refine(const Start& start) {
     const StrokeReading in_order = refine(&Reader::read_in_order, start.in_order, start.fit);
     StrokeReading free = start.free;
-    if (is_same(start.in_order, free)) {  // another order may still be seen at the end
+    if (is_same(start.in_order, free)) {  // another order may still show in the final fit
       free = read_freely(in_order.costs);
       if (is_same(in_order, free)) return {in_order, in_order};
     }
@@ -172,8 +213,8 @@ class Reader {
     return sum;
   }
 
-  /// Another order is believed only where it fits clearly better, counted where the two differ, or leaves no more to
-  /// remark.
+  /// Another order is believed only if it fits clearly better where the two differ. A careless hand needs more
+  /// evidence, unless the other order leaves no more to remark.
   StrokeReading choose(const Pair& pair) const {
     const auto& [in_order, free] = pair;
     if (free.cost >= in_order.cost) return in_order;
@@ -185,7 +226,7 @@ class Reader {
     return chosen;
   }
 
-  /// Pen-downs and strokes that are left over, joined, broken or out of turn.
+  /// Number of pen-downs and strokes that are left over, joined, broken or out of turn.
   static std::size_t faults(const StrokeReading& reading) {
     std::size_t count = 0;
     std::vector<std::size_t> paths;  // by stroke
@@ -197,7 +238,8 @@ class Reader {
     return count + paths.size() - longest_rise(paths).size();
   }
 
-  /// A careless hand needs more evidence for another order than a neat one; small strokes are told apart by the factor.
+  /// Evidence for the cheaper of two orders. A careless hand needs more of it than a neat one; among small strokes, the
+  /// factor between the costs decides.
   static double evidence_of(double cost, double other, double mean_cost) {
     if (cost <= other) return 0.0;
     return std::max((cost - other) / least_saving(mean_cost), cost / (judge_constants.saving_factor * other));
@@ -221,7 +263,7 @@ class Reader {
     return read_in_this_order(costs, order);
   }
 
-  /// The pen-downs in the order of the strokes that fit them best in all (assignment), read in that order.
+  /// Reads the pen-downs in the order of the strokes that fit them best overall (assignment).
   StrokeReading read_freely(const Costs& costs) const {
     std::vector<std::vector<double>> pairs(costs->strokes());
     for (std::size_t stroke = 0; stroke < pairs.size(); ++stroke) {
@@ -254,8 +296,8 @@ class Reader {
     return nearest;
   }
 
-  /// Strokes that are much alike are taken in the order in which they should come: pen-downs exchange their strokes
-  /// where more of them are then in turn, and where that does not cost clearly more.
+  /// Prefers the right order among strokes that are much alike: pen-downs exchange their strokes if more of them are in
+  /// turn afterwards and the cost does not rise clearly.
   void prefer_order(const StrokeCosts& costs, std::vector<std::optional<std::size_t>>& strokes) const {
     std::vector<std::size_t> paths;
     std::vector<std::size_t> written;
@@ -303,7 +345,7 @@ class Reader {
     for (std::size_t i = 0; i < count; ++i) strokes[paths[i]] = written[i];
   }
 
-  /// The strokes between two pen-downs that are also between theirs, sorted.
+  /// The strokes with those sorted that were written between two pen-downs and also lie between their strokes.
   static std::vector<std::size_t> sorted_between(std::vector<std::size_t> strokes, std::size_t earlier,
                                                  std::size_t later) {
     std::vector<std::size_t> places, between;

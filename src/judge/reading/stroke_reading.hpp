@@ -10,12 +10,11 @@
 #include <calligraphy/judge/pen_path.hpp>
 
 #include "stroke_costs.hpp"
-#include "stroke_outlines.hpp"
 
 namespace calligraphy {
 
-/// Pen-downs and the strokes that they are taken for. Without pen-downs: a stroke that is missing; without strokes: an
-/// extra pen-down; several strokes: joined; two pen-downs: a broken stroke.
+/// Pen-downs and the strokes as which they are read. No pen-down: a missing stroke; no stroke: an extra pen-down;
+/// several strokes: joined strokes; two pen-downs: a broken stroke.
 struct ReadingStep {
   std::size_t path = 0, paths = 0;
   std::size_t stroke = 0, strokes = 0;
@@ -28,26 +27,26 @@ struct ReadingStep {
   }
 };
 
-/// Every pen-down and every stroke is in one step.
+/// A reading, in which every pen-down and every stroke is in exactly one step.
 struct StrokeReading {
   std::vector<ReadingStep> steps;
-  double cost = 0.0;                         ///< of all steps, before what was left over was paired
-  std::shared_ptr<const StrokeCosts> costs;  ///< at the fit of this reading
-  long comparisons = 0;                      ///< of a pen-down with strokes, that led to it
-  /// That strokes were written in another order, if they were: 1 where it is just believed.
+  double cost = 0.0;                         ///< cost of all steps, before leftovers were paired [em]
+  std::shared_ptr<const StrokeCosts> costs;  ///< costs at the fit of this reading
+  long comparisons = 0;                      ///< comparisons of pen-downs with strokes that led to it
+  /// Evidence that strokes were written in another order, if they were: 1 if it is just believed [1].
   double order_evidence = std::numeric_limits<double>::infinity();
 
-  /// Of a step that is_written().
+  /// The cost of a step, which must be is_written().
   const PairCost& pair(const ReadingStep& step) const;
-  /// The mean cost of a pen-down or a stroke: large of a careless hand.
+  /// Mean cost of a pen-down or a stroke, large for a careless hand [em].
   double mean_cost() const;
-  /// What it takes to believe this reading, in which so many strokes were written out of order: to choose among several
-  /// orders or forms that are accepted [em].
+  /// The price of believing this reading, in which so many strokes were written out of order: for choosing among
+  /// several accepted orders or forms [em].
   double price(std::size_t out_of_order) const;
 };
 
-/// The reading of least cost; another order than the right one only where it fits clearly better: by twice the mean
-/// cost of this hand, or by that factor where the two orders differ.
+/// The reading with the least cost. An order other than the right one is chosen only if it fits clearly better: by
+/// twice the mean cost of this hand, or by a factor of 2, where the two orders differ.
 StrokeReading read_strokes(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths);
 
 }  // namespace calligraphy

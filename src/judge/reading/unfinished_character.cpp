@@ -15,9 +15,9 @@ namespace calligraphy {
 namespace {
 
 using detail::judge_constants;
-constexpr double absurd_cost = 10.0;  // of a pen-down that is extra because its stroke was supposed [em]
+constexpr double absurd_cost = 10.0;  // cost of a pen-down left over only because its stroke was supposed [em]
 
-/// A path with the rest of the stroke that it has begun, moved to where the path ends.
+/// The path, continued with the rest of the stroke that it began, moved to where the path ends.
 PenPath finished(PenPath path, const PenPath& stroke) {
   const double length = path_length(path);
   const Point shift = path.back() - points_along(stroke, std::min(length, path_length(stroke)), 2).back();
@@ -36,8 +36,8 @@ bool is_written(const MatchResult& match, std::size_t stroke) {
   });
 }
 
-/// Of a path that wrote nothing: how far it is from the beginning of a stroke, forwards or backwards, as an attempt at
-/// it. Absurd if that is one of those that were only supposed, from `count` on.
+/// Cost of a path that wrote no stroke, as an attempt at one: its distance from the nearest beginning of a stroke,
+/// forwards or backwards. Absurd if that stroke was only supposed, that is, from `count` on.
 double extra_cost(const PenPath& path, const std::vector<PenPath>& lines, std::size_t count) {
   const double length = path_length(path);
   const Outline drawn = outline(path);
@@ -55,7 +55,7 @@ double extra_cost(const PenPath& path, const std::vector<PenPath>& lines, std::s
   return is_supposed ? absurd_cost : judge_constants.extra_attempt_cost + least;
 }
 
-/// What is to be remarked, and how far the paths are from their strokes, as a distance [em].
+/// The remarks and how far the paths are from their strokes, as one distance [em].
 double cost(const MatchResult& result, std::span<const PenPath> paths, const std::vector<PenPath>& lines,
             std::size_t count) {
   double sum = 0.0;
@@ -73,9 +73,9 @@ double cost(const MatchResult& result, std::span<const PenPath> paths, const std
   return sum;
 }
 
-/// A stroke that was begun when the character was broken off has the direction in which it was begun, however little of
-/// it there is.
-void see_what_was_begun(DrawnStroke& drawn, const PenPath& path, const AffineMap& fit, const PenPath& line) {
+/// Gives a stroke that was just begun when the character was broken off the direction in which it was begun, however
+/// little of it there is.
+void set_begun_direction(DrawnStroke& drawn, const PenPath& path, const AffineMap& fit, const PenPath& line) {
   if (drawn.direction != WritingDirection::neither || drawn.length >= judge_constants.least_share) return;
   const std::vector<Point> ends = points_along(line, std::min(path_length(line), path_length(path)), 2);
   const Point begun = fit.linear * (path.back() - path.front());
@@ -84,13 +84,13 @@ void see_what_was_begun(DrawnStroke& drawn, const PenPath& path, const AffineMap
   drawn.evidence = drawn.direction == WritingDirection::forwards ? 0.0 : 1.0;
 }
 
-/// Takes out what was only supposed, all but the paths that were drawn: their strokes are missing.
+/// Removes what was only supposed: all but the paths that were drawn. Its strokes then count as missing.
 void take_back(MatchResult& result, std::span<const PenPath> paths, const Character& character,
                const std::vector<PenPath>& lines, double least_evidence) {
   result.drawn.resize(paths.size());
   DrawnStroke& last = result.drawn.back();
   if (last.stroke >= 0) {
-    see_what_was_begun(last, paths.back(), result.fit, lines[static_cast<std::size_t>(last.stroke)]);
+    set_begun_direction(last, paths.back(), result.fit, lines[static_cast<std::size_t>(last.stroke)]);
   }
   set_in_turn(result.drawn);
   double of_order = std::numeric_limits<double>::infinity();
@@ -100,14 +100,14 @@ void take_back(MatchResult& result, std::span<const PenPath> paths, const Charac
   result.remarks = remarks_on(character, paths, result.drawn, result.fit, {of_order, least_evidence});
 }
 
-/// Of the ways to suppose the rest of a character, the one that leaves the least to remark.
-/// @param others what the other paths wrote, of a last path that may go on; null: it does not
+/// The match for the continuation of a character that leaves the least to remark.
+/// @param others what the other paths wrote, if the last path may continue; null: it may not
 MatchResult match_supposing(const Character& character, std::span<const PenPath> paths,
                             const JudgeTolerances& tolerances, const std::vector<PenPath>& lines,
                             const MatchResult* others) {
   MatchResult best;
   double least = std::numeric_limits<double>::infinity();
-  // That the strokes from `count` on are still to come, and that this is all of the last path.
+  // Supposes that the strokes from `count` on are still to come, and that the last path is this one.
   const auto suppose = [&](std::size_t count, const PenPath& last) {
     std::vector<PenPath> supposed(paths.begin(), paths.end());
     supposed.back() = last;
@@ -135,8 +135,7 @@ MatchResult match_supposing(const Character& character, std::span<const PenPath>
 
 MatchResult match_unfinished(const Character& character, std::span<const PenPath> paths,
                              const JudgeTolerances& tolerances) {
-  std::vector<PenPath> lines;
-  for (const Stroke& stroke : strokes(character)) lines.push_back(middle_line(stroke, {Point::Zero(), 1.0}));
+  const std::vector<PenPath> lines = middle_lines(character);
   if (path_length(paths.back()) < tap_length) return match_supposing(character, paths, tolerances, lines, nullptr);
   MatchResult others;
   if (paths.size() > 1) others = match_supposing(character, paths.first(paths.size() - 1), tolerances, lines, nullptr);

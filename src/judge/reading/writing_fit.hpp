@@ -1,4 +1,4 @@
-// How the writing as a whole lies on the character.
+// The alignment of the writing as a whole with the character.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace calligraphy {
 
-/// Lays the pen-downs on the strokes that they are taken for: an affine map by least squares, pulled to the start,
-/// since few strokes say little of slant and size. None where it slants or scales the writing so much more than the
-/// start does that this is no matter of handwriting, or where nothing was written.
+/// The affine map from the pen-downs to the strokes as which they are read, by least squares. It is pulled towards the
+/// start, because a few strokes reveal little about slant and size. None if nothing was written, or if the map slants
+/// or scales the writing beyond the start more than handwriting varies.
 std::optional<AffineMap> fit_writing(const StrokeReading& reading, const StrokeOutlines& strokes,
                                      std::span<const DrawnLine> drawn, const AffineMap& start);
 

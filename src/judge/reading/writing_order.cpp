@@ -1,9 +1,6 @@
 #include "writing_order.hpp"
 
 #include <algorithm>
-#include <cstddef>
-
-#include "longest_rise.hpp"
 
 namespace calligraphy {
 namespace {
@@ -45,7 +42,7 @@ class OrderFinder {
     }));
   }
 
-  /// Where all that was written between two strokes belongs between them, and the rest before or behind.
+  /// Pairs such that all that was written between the two belongs between them, and the rest before or after.
   std::vector<Places> separate_exchanges() const {
     std::vector<Places> exchanges;
     for (std::size_t first = 0; first + 2 < strokes_.size(); ++first) {
@@ -64,7 +61,7 @@ class OrderFinder {
     return exchanges;
   }
 
-  /// Each of which stands where the other belongs.
+  /// Pairs each of which stands where the other belongs.
   std::vector<Places> all_exchanges() const {
     std::vector<std::size_t> sorted = strokes_;
     std::sort(sorted.begin(), sorted.end());
@@ -108,8 +105,8 @@ class OrderFinder {
   }
 
   std::span<const DrawnStroke> drawn_;
-  std::vector<int> paths_;            ///< that wrote something, without the second parts of broken strokes
-  std::vector<std::size_t> strokes_;  ///< that they wrote
+  std::vector<int> paths_;            ///< pen-downs that wrote strokes, without second parts of broken ones
+  std::vector<std::size_t> strokes_;  ///< the strokes that they wrote
 };
 
 }  // namespace
@@ -122,6 +119,27 @@ bool WritingOrder::has_changed_places(int path) const {
 bool WritingOrder::has_moved(int path) const {
   return std::any_of(moved.begin(), moved.end(),
                      [path](const MovedStrokes& each) { return each.path <= path && path <= each.last_path; });
+}
+
+std::vector<std::size_t> longest_rise(std::span<const std::size_t> numbers) {
+  std::vector<std::size_t> lasts;   // the least number that ends a series of each length
+  std::vector<std::size_t> length;  // length of the longest series that ends with each number
+  for (const std::size_t number : numbers) {
+    const auto at = std::lower_bound(lasts.begin(), lasts.end(), number);
+    length.push_back(static_cast<std::size_t>(at - lasts.begin()) + 1);
+    if (at == lasts.end()) {
+      lasts.push_back(number);
+    } else {
+      *at = number;
+    }
+  }
+  std::vector<std::size_t> places(lasts.size());
+  std::size_t wanted = lasts.size();
+  for (std::size_t i = numbers.size(); i-- > 0 && wanted > 0;) {
+    // Among the earlier ones that end a series one shorter, the last is the least.
+    if (length[i] == wanted) places[--wanted] = i;
+  }
+  return places;
 }
 
 WritingOrder find_order(std::span<const DrawnStroke> drawn) { return OrderFinder(drawn).run(); }

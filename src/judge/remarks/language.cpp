@@ -10,7 +10,7 @@
 
 namespace calligraphy {
 
-/// Its texts by their keys, all in static storage.
+/// The code and the texts of a language, all in static storage.
 struct detail::LanguageWords {
   std::string_view code;
   std::map<std::string_view, std::string_view> texts;

@@ -14,12 +14,13 @@
 
 #include "judge/judge_constants.hpp"
 #include "judge/pens/resemblance.hpp"
+#include "judge/pens/writing_box.hpp"
 
 namespace calligraphy {
 namespace {
 
-constexpr double straight = 0.85;  // distance of the ends, of the length, below which they do not tell the way [1]
-// A shorter side of a box, of the longer, along which places are not told apart: of strokes, and of characters [1].
+constexpr double straight = 0.85;  // distance of the ends, over the length, below which they do not show the way [1]
+// Shorter side of a box, over the longer, up to which places are not distinguished along it [1].
 constexpr double flat_stroke = 0.4, flat_character = 0.15;
 
 /// Keys of the thirds of a box, from the bottom left, row by row.
@@ -39,13 +40,7 @@ std::size_t place_in(const Eigen::AlignedBox2d& box, double flat, const Point& p
   return 3 * third[1] + third[0];
 }
 
-Eigen::AlignedBox2d box_of(const std::vector<Point>& path) {
-  Eigen::AlignedBox2d box;
-  for (const Point& point : path) box.extend(point);
-  return box;
-}
-
-/// "1st", "2nd", "11th", of an index from 0: by as many of the last digits as the language has a text for.
+/// "1st", "2nd", "11th" for an index from 0, from as many of the last digits as the language has a text for.
 std::string ordinal(int index, const Language& language) {
   const std::string number = std::to_string(index + 1);
   std::string text;
@@ -55,7 +50,7 @@ std::string ordinal(int index, const Language& language) {
   return text.empty() ? language.text("ordinal", {{"number", number}}) : text;
 }
 
-/// The words of a remark.
+/// A remark in words.
 class Sentence {
  public:
   Sentence(const StrokeRemark& remark, const Character& character, const Language& language)
@@ -72,7 +67,7 @@ class Sentence {
         return say(starts_at_a_side(remark_.stroke) ? "direction.placed" : "direction");
       case StrokeRemarkKind::shape: {
         const std::string_view key = remark_.length < detail::judge_constants.least_share ? "part" : "shape";
-        const bool is_straight = remark_.stroke_count == 1 && is_told_by_its_ends(remark_.stroke);
+        const bool is_straight = remark_.stroke_count == 1 && is_nearly_straight(remark_.stroke);
         return say(std::string(key) + (is_straight ? ".straight" : ""));
       }
       case StrokeRemarkKind::missing:
@@ -106,7 +101,7 @@ class Sentence {
     return say(remark_.other_path < 0 ? "extra.unlike" : "extra.twice");
   }
 
-  /// The text of a key, with all that a remark may name.
+  /// The text of a key, with everything that a remark may name filled in.
   std::string say(std::string_view key) const {
     const bool is_exchange = remark_.kind == StrokeRemarkKind::order && remark_.other_path >= 0;
     const auto [first, other] = is_exchange ? std::minmax({remark_.stroke, remark_.other_stroke})
@@ -130,7 +125,7 @@ class Sentence {
                                {"asked", encode_utf8(code_)}});
   }
 
-  /// "2 (héng)"; empty of none.
+  /// "2 (héng)"; empty for no stroke.
   std::string stroke(int index) const {
     if (index < 0) return {};
     const TypicalStroke& type = *strokes_[static_cast<std::size_t>(index)].type;
@@ -146,9 +141,7 @@ class Sentence {
                           {{"first", first}, {"last", stroke(remark_.stroke + remark_.stroke_count - 1)}});
   }
 
-  std::vector<Point> line_of(int index) const {
-    return middle_line(strokes_[static_cast<std::size_t>(index)], {Point::Zero(), 1.0});
-  }
+  std::vector<Point> line_of(int index) const { return middle_line(strokes_[static_cast<std::size_t>(index)]); }
 
   /// Where a stroke starts and ends, as thirds of its box.
   struct Ends {
@@ -158,7 +151,7 @@ class Sentence {
   Ends ends_of(int index) const {
     if (index < 0) return {};
     const std::vector<Point> line = line_of(index);
-    const Eigen::AlignedBox2d box = box_of(line);
+    const Eigen::AlignedBox2d box = box_of_all({&line, 1});
     return {place_in(box, flat_stroke, line.front()), place_in(box, flat_stroke, line.back())};
   }
 
@@ -168,18 +161,17 @@ class Sentence {
     return ends.start != ends.end && ends.start != middle_of_box;
   }
 
-  /// Whether a stroke is so straight that its ends say how it runs.
-  bool is_told_by_its_ends(int index) const {
+  /// Whether a stroke is so straight that its ends show how it runs.
+  bool is_nearly_straight(int index) const {
     const std::vector<Point> line = line_of(index);
     return (line.front() - line.back()).norm() >= straight * path_length(line);
   }
 
   /// The third of the character in which the middle of the remark's stroke lies.
   std::size_t place_in_character() const {
-    Eigen::AlignedBox2d box;
-    for (int i = 0; i < static_cast<int>(strokes_.size()); ++i) box.extend(box_of(line_of(i)));
-    const std::vector<Point> line = line_of(remark_.stroke);
-    return place_in(box, flat_character, points_along(line, path_length(line), 3)[1]);
+    std::vector<PenPath> lines;
+    for (const Stroke& stroke : strokes_) lines.push_back(middle_line(stroke));
+    return place_in(box_of_all(lines), flat_character, halfway(lines[static_cast<std::size_t>(remark_.stroke)]));
   }
 
   const StrokeRemark& remark_;

@@ -32,9 +32,9 @@ class Remarks {
   }
 
   std::vector<StrokeRemark> run(const std::optional<OtherCharacter>& other) {
-    if (other) tell_other(*other);
+    if (other) remark_on_other_character(*other);
     if (other && !other->is_lookalike) return std::move(remarks_);
-    for (int path = 0; path < static_cast<int>(drawn_.size()); ++path) tell(path);
+    for (int path = 0; path < static_cast<int>(drawn_.size()); ++path) remark_on(path);
     std::vector<bool> is_written(strokes_.size(), false);
     for (const int path : written_) {
       std::fill_n(is_written.begin() + at(path).stroke, at(path).stroke_count, true);
@@ -45,7 +45,7 @@ class Remarks {
            .stroke = stroke,
            .stroke_count = 1,
            .place = place_of_stroke(stroke),
-           .evidence = length_of_stroke(stroke) / tap_length});
+           .evidence = path_length(line_of(stroke)) / tap_length});
     }
     return std::move(remarks_);
   }
@@ -57,7 +57,7 @@ class Remarks {
     if (remark.evidence >= evidence_.least) remarks_.push_back(remark);
   }
 
-  void tell_other(const OtherCharacter& other) {
+  void remark_on_other_character(const OtherCharacter& other) {
     add({.kind = other.is_lookalike ? StrokeRemarkKind::lookalike : StrokeRemarkKind::character,
          .path = 0,
          .path_count = static_cast<int>(paths_.size()),
@@ -65,24 +65,24 @@ class Remarks {
          .place = box_of_all(paths_).center()});
   }
 
-  void tell(int path) {
+  void remark_on(int path) {
     const DrawnStroke& drawn = at(path);
     if (drawn.stroke < 0) {
-      if (!drawn.tap) tell_extra(path);  // a tap is a pen that bounced
+      if (!drawn.tap) remark_on_extra(path);  // a tap is a pen that bounced
       return;
     }
     if (drawn.continues) return;
     for (const Exchange& exchange : order_.exchanges) {
-      if (exchange.path == path) tell_exchange(exchange);
+      if (exchange.path == path) remark_on_exchange(exchange);
     }
     for (const MovedStrokes& moved : order_.moved) {
-      if (moved.path == path) tell_moved(moved);
+      if (moved.path == path) remark_on_moved(moved);
     }
-    const bool goes_on = path + 1 < static_cast<int>(drawn_.size()) && at(path + 1).continues;
-    const auto tell_of_stroke = [&](StrokeRemarkKind kind, double evidence) {
+    const bool is_broken = path + 1 < static_cast<int>(drawn_.size()) && at(path + 1).continues;
+    const auto remark_on_stroke = [&](StrokeRemarkKind kind, double evidence) {
       add({.kind = kind,
            .path = path,
-           .path_count = goes_on ? 2 : 1,
+           .path_count = is_broken ? 2 : 1,
            .stroke = drawn.stroke,
            .stroke_count = drawn.stroke_count,
            .place = place_of_path(path),
@@ -90,24 +90,24 @@ class Remarks {
            .length = drawn.length,
            .direction = drawn.direction});
     };
-    if (goes_on) {
-      tell_of_stroke(StrokeRemarkKind::broken, std::max(1.0, shorter_share(path) / judge_constants.sure_part));
+    if (is_broken) {
+      remark_on_stroke(StrokeRemarkKind::broken, std::max(1.0, shorter_share(path) / judge_constants.sure_part));
     }
-    if (drawn.stroke_count > 1) tell_of_stroke(StrokeRemarkKind::joined, 0.5 * drawn.stroke_count);
+    if (drawn.stroke_count > 1) remark_on_stroke(StrokeRemarkKind::joined, 0.5 * drawn.stroke_count);
     if (drawn.direction == WritingDirection::backwards) {
-      tell_of_stroke(StrokeRemarkKind::direction, drawn.evidence);
+      remark_on_stroke(StrokeRemarkKind::direction, drawn.evidence);
     } else if (drawn.direction != WritingDirection::unknown) {
-      tell_of_stroke(StrokeRemarkKind::shape, drawn.evidence);
+      remark_on_stroke(StrokeRemarkKind::shape, drawn.evidence);
     }
   }
 
-  void tell_extra(int path) {
+  void remark_on_extra(int path) {
     StrokeRemark remark{.kind = StrokeRemarkKind::extra,
                         .path = path,
                         .path_count = 1,
                         .other_stroke = at(path).attempt,
                         .place = place_of_path(path),
-                        .evidence = path_length(fitted(path)) / tap_length,
+                        .evidence = path_length(aligned(path)) / tap_length,
                         .direction = at(path).direction};
     for (const int other : written_) {
       const int beyond = remark.other_stroke - at(other).stroke;
@@ -116,7 +116,7 @@ class Remarks {
     add(remark);
   }
 
-  void tell_exchange(const Exchange& exchange) {
+  void remark_on_exchange(const Exchange& exchange) {
     add({.kind = StrokeRemarkKind::order,
          .path = exchange.path,
          .path_count = 1,
@@ -128,7 +128,7 @@ class Remarks {
          .evidence = evidence_.order});
   }
 
-  void tell_moved(const MovedStrokes& moved) {
+  void remark_on_moved(const MovedStrokes& moved) {
     const int due = due_at(moved.path);
     add({.kind = StrokeRemarkKind::order,
          .path = moved.path,
@@ -140,8 +140,8 @@ class Remarks {
          .evidence = evidence_.order});
   }
 
-  /// The first stroke that was still to be written when a pen-down began, of those that were written at all; strokes
-  /// that changed places are told by themselves.
+  /// The first stroke that was still to be written when a pen-down began, of those written at all; strokes that changed
+  /// places have remarks of their own.
   int due_at(int path) const {
     int due = static_cast<int>(strokes_.size());
     for (const int other : written_) {
@@ -150,7 +150,7 @@ class Remarks {
     return due;
   }
 
-  /// The last stroke of those written before a pen-down.
+  /// The last of the strokes written before a pen-down.
   int last_before(int path) const {
     int last = 0;
     for (const int other : written_) {
@@ -160,32 +160,26 @@ class Remarks {
     return last;
   }
 
-  Point place_of_path(int path) const {
-    const PenPath& drawn = paths_[static_cast<std::size_t>(path)];
-    return points_along(drawn, path_length(drawn), 3)[1];
+  Point place_of_path(int path) const { return halfway(paths_[static_cast<std::size_t>(path)]); }
+
+  /// A pen-down, aligned with the character.
+  PenPath aligned(int path) const {
+    PenPath result = paths_[static_cast<std::size_t>(path)];
+    for (Point& point : result) point = fit_(point);
+    return result;
   }
 
-  /// A pen-down, laid on the character.
-  PenPath fitted(int path) const {
-    PenPath laid = paths_[static_cast<std::size_t>(path)];
-    for (Point& point : laid) point = fit_(point);
-    return laid;
-  }
-
-  /// Of a stroke that a pen-down and the next one wrote, the share of the shorter one.
+  /// Share of the shorter part of a stroke that a pen-down and the next one wrote.
   double shorter_share(int path) const {
     const double one = path_length(paths_[static_cast<std::size_t>(path)]);
     const double other = path_length(paths_[static_cast<std::size_t>(path) + 1]);
     return std::min(one, other) / std::max(one + other, 1e-300);
   }
 
-  double length_of_stroke(int stroke) const {
-    return path_length(middle_line(strokes_[static_cast<std::size_t>(stroke)], {Point::Zero(), 1.0}));
-  }
+  std::vector<Point> line_of(int stroke) const { return middle_line(strokes_[static_cast<std::size_t>(stroke)]); }
 
   Point place_of_stroke(int stroke) const {
-    const std::vector<Point> line = middle_line(strokes_[static_cast<std::size_t>(stroke)], {Point::Zero(), 1.0});
-    return fit_.linear.inverse() * (points_along(line, path_length(line), 3)[1] - fit_.offset);
+    return fit_.linear.inverse() * (halfway(line_of(stroke)) - fit_.offset);
   }
 
   const std::vector<Stroke> strokes_;
@@ -194,7 +188,7 @@ class Remarks {
   const AffineMap& fit_;
   const RemarkEvidence evidence_;
   const WritingOrder order_;
-  std::vector<int> written_;  ///< pen-downs that wrote something, without the second parts of broken strokes
+  std::vector<int> written_;  ///< pen-downs that wrote strokes, without second parts of broken ones
   std::vector<StrokeRemark> remarks_;
 };
 

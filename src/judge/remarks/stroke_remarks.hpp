@@ -1,4 +1,4 @@
-// What there is to remark on a character that was read.
+// The remarks on a character that was read.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,14 @@
 
 namespace calligraphy {
 
-/// How sure or how grave a remark is, and must be.
+/// How sure or how grave remarks are, and must be (StrokeRemark::evidence) [1].
 struct RemarkEvidence {
-  double order;  ///< of those of order
-  double least;  ///< of each that is told
+  double order;  ///< evidence of remarks on order
+  double least;  ///< minimum evidence of a remark
 };
 
-/// By pen-down, then the strokes that none of them wrote. `drawn` tells what each of the paths wrote. If it was another
-/// character, that alone, or of a lookalike, that first.
+/// The remarks by pen-down, then those on strokes that none of them wrote. `drawn` says what each of the paths wrote.
+/// If it was another character, there is only that remark; if it was a lookalike, that remark comes first.
 std::vector<StrokeRemark> remarks_on(const Character& character, std::span<const PenPath> paths,
                                      std::span<const DrawnStroke> drawn, const AffineMap& fit,
                                      const RemarkEvidence& evidence,
