@@ -160,14 +160,7 @@ void draw_strokes(pugi::xml_node parent, const ForceFieldFigure& figure, const s
 }
 
 void draw_pen(pugi::xml_node parent, const Point& at) {
-  add(parent, "circle",
-      {{"class", "pen"},
-       {"cx", number(at.x())},
-       {"cy", number(at.y())},
-       {"r", "5"},
-       {"fill", pen_yellow},
-       {"stroke", field_ink},
-       {"stroke-width", "1.2"}});
+  svg::add_circle(parent, "pen", at, "5", {{"fill", pen_yellow}, {"stroke", field_ink}, {"stroke-width", "1.2"}});
 }
 
 void draw_panel(pugi::xml_node root, const ForceFieldFigure& figure, std::size_t index) {
@@ -179,20 +172,14 @@ void draw_panel(pugi::xml_node root, const ForceFieldFigure& figure, std::size_t
 
   add_text(root, corner.x(), corner.y() - 8.0, 13.5, panel.name, {{"fill", field_ink}, {"font-weight", "bold"}});
   const std::string clip = "panel-" + std::to_string(index);
-  const svg::Attributes frame = {{"x", number(corner.x())},
-                                 {"y", number(corner.y())},
-                                 {"width", number(map_square)},
-                                 {"height", number(map_square)}};
-  add(add(root, "clipPath", {{"id", clip}}), "rect", frame);
+  svg::add_rect(add(root, "clipPath", {{"id", clip}}), corner, map_square, map_square);
   pugi::xml_node group = add(root, "g", {{"class", "field"}, {"clip-path", "url(#" + clip + ")"}});
   draw_sizes(group, field, corner);
   draw_strokes(group, figure, view);
   draw_jumps(group, panel, view);
   draw_arrows(group, field, view);
   draw_pen(group, view(figure.pen));
-  pugi::xml_node border = add(root, "rect", frame);
-  border.append_attribute("fill") = "none";
-  border.append_attribute("stroke") = field_faint;
+  svg::add_rect(root, corner, map_square, map_square, {{"fill", "none"}, {"stroke", field_faint}});
 
   add_text(root, corner.x(), corner.y() + map_square + 15.0, 12.0, note_on_jumps(panel), {{"fill", field_ink}});
 }
@@ -219,14 +206,8 @@ void draw_key(pugi::xml_node root, const ForceFieldFigure& figure, double y) {
   const double step = fullest / static_cast<double>(colours.size());
   for (std::size_t i = 0; i < colours.size(); ++i) {
     const double left = x + static_cast<double>(i) * swatch;
-    add(root, "rect",
-        {{"x", number(left)},
-         {"y", number(y - 7.0)},
-         {"width", number(swatch)},
-         {"height", "12"},
-         {"fill", colours[i]},
-         {"stroke", field_faint},
-         {"stroke-width", "0.6"}});
+    svg::add_rect(root, {left, y - 7.0}, swatch, 12.0,
+                  {{"fill", colours[i]}, {"stroke", field_faint}, {"stroke-width", "0.6"}});
     if (i % 2 == 0) {
       add_text(root, left, y + 17.0, 10.0, number(static_cast<double>(i) * step),
                {{"text-anchor", "middle"}, {"fill", field_ink}});

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -94,12 +93,6 @@ double distance_to_chord(const Point& point, const Point& begin, const Point& en
   return (point - begin - t * chord).norm();
 }
 
-double length_of(const std::vector<Point>& path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
-  return length;
-}
-
 /// Ramer, Douglas and Peucker: no point of the path is further than `tolerance` from what is left of it.
 std::vector<Point> thinned(const std::vector<Point>& path, double tolerance) {
   std::vector<bool> kept(path.size(), false);
@@ -139,7 +132,7 @@ struct TraceShape {
 TraceShape shape_of(const Trace& trace, std::span<const Stroke> strokes, StrokeStyle style, double detail) {
   std::vector<Point> path = thinned(trace.path, detail);
   const bool known = trace.finished && trace.stroke >= 0 && trace.stroke < static_cast<int>(strokes.size());
-  if (style == StrokeStyle::lines || !known || length_of(trace.path) > longest_ink) return {std::move(path), false};
+  if (style == StrokeStyle::lines || !known || path_length(trace.path) > longest_ink) return {std::move(path), false};
   StrokeInk profile = *strokes[static_cast<std::size_t>(trace.stroke)].ink;
   for (double& half_width : profile.half_widths) half_width *= trace_share;
   return {ink_outline(path, profile, detail), true};
@@ -164,15 +157,6 @@ std::vector<std::vector<TraceShape>> shapes_of(std::vector<std::vector<Trace>> t
   }
 }
 
-std::string line_path(const std::vector<Point>& points, const svg::View& view) {
-  svg::Path path;
-  path.move_to(view(points.front()));
-  // A pen that stood still leaves a dot.
-  if (points.size() == 1) path.line_to(view(points.front()));
-  for (std::size_t i = 1; i < points.size(); ++i) path.line_to(view(points[i]));
-  return path.data();
-}
-
 void draw_traces(pugi::xml_node root, const std::vector<TraceShape>& shapes, const svg::View& em) {
   pugi::xml_node group = add(root, "g",
                              {{"class", "trace"},
@@ -180,10 +164,11 @@ void draw_traces(pugi::xml_node root, const std::vector<TraceShape>& shapes, con
                               {"stroke-linecap", "round"},
                               {"stroke-linejoin", "round"}});
   for (const TraceShape& shape : shapes) {
+    const std::vector<Point> points = em(shape.points);
     if (shape.filled) {
-      add(group, "path", {{"d", svg::polygon_path(shape.points, em)}, {"fill", trace_green}});
+      add(group, "path", {{"d", svg::polygon_path(points)}, {"fill", trace_green}});
     } else {
-      add(group, "path", {{"d", line_path(shape.points, em)}, {"fill", "none"}, {"stroke", trace_green}});
+      add(group, "path", {{"d", svg::line_path(points)}, {"fill", "none"}, {"stroke", trace_green}});
     }
   }
 }
@@ -204,8 +189,7 @@ svg::View view_of(const Placement& placement, const svg::View& page) {
 /// The square in which a character stands, with its middle lines, as on practice paper.
 void draw_square(pugi::xml_node parent, const svg::View& em) {
   const Point corner = em({0.0, 1.0});
-  const std::string edge = number(em.scale);
-  add(parent, "rect", {{"x", number(corner.x())}, {"y", number(corner.y())}, {"width", edge}, {"height", edge}});
+  svg::add_rect(parent, corner, em.scale, em.scale);
   const Point middle = em({0.5, 0.5});
   const Point end = em({1.0, 0.0});
   add(parent, "path",

@@ -20,7 +20,6 @@ using svg::add;
 using svg::add_text;
 using svg::faint;
 using svg::ink;
-using svg::number;
 
 constexpr const char* template_colour = "#c5d6f7";
 constexpr const char* number_colour = "#2f62c9";
@@ -91,18 +90,8 @@ class Labels {
   std::vector<Taken> taken_;
 };
 
-std::vector<Point> in_picture(std::span<const Point> path, const svg::View& view) {
-  std::vector<Point> points;
-  for (const Point& point : path) points.push_back(view(point));
-  return points;
-}
-
 void draw_path(pugi::xml_node parent, std::span<const Point> points, const char* colour) {
-  svg::Path path;
-  path.move_to(points.front());
-  if (points.size() == 1) path.line_to(points.front());
-  for (std::size_t i = 1; i < points.size(); ++i) path.line_to(points[i]);
-  add(parent, "path", {{"d", path.data()}, {"stroke", colour}});
+  add(parent, "path", {{"d", svg::line_path(points)}, {"stroke", colour}});
 }
 
 /// A head in the middle of the path that shows where it goes.
@@ -113,11 +102,9 @@ void draw_arrow(pugi::xml_node parent, std::span<const Point> points, const char
   if (along.norm() == 0.0) return;
   const Point forward = 0.5 * arrow_length * along.normalized();
   const Point across(-0.6 * forward.y(), 0.6 * forward.x());
-  svg::Path head;
-  head.move_to(even[middle] + forward);
-  head.line_to(even[middle] - forward + across);
-  head.line_to(even[middle] - forward - across);
-  add(parent, "path", {{"d", head.data() + "Z"}, {"fill", colour}, {"stroke", "none"}});
+  const Point back = even[middle] - forward;
+  const std::vector<Point> head = {even[middle] + forward, back + across, back - across};
+  add(parent, "path", {{"d", svg::polygon_path(head)}, {"fill", colour}, {"stroke", "none"}});
 }
 
 /// The halo is a text of its own below all numbers, because not every viewer knows paint-order.
@@ -184,26 +171,24 @@ void draw_square(pugi::xml_node root, const Character& character, StrokeStyle st
                  const std::string& heading, const svg::View& view) {
   add_text(root, x + 0.5 * square_side, sheet_top - 2.5, text_size, heading,
            {{"text-anchor", "middle"}, {"fill", ink}});
-  add(root, "rect",
-      {{"x", number(x)},
-       {"y", number(sheet_top)},
-       {"width", number(square_side)},
-       {"height", number(square_side)},
-       {"fill", "none"},
-       {"stroke", faint},
-       {"stroke-width", "0.3"}});
+  svg::add_rect(root, {x, sheet_top}, square_side, square_side,
+                {{"fill", "none"}, {"stroke", faint}, {"stroke-width", "0.3"}});
   pugi::xml_node group = svg::add_stroke_group(root, "template", style, template_colour, 0.035 * square_side);
   for (const Stroke& stroke : strokes(character)) svg::add_stroke(group, stroke, style, view);
 }
 
+pugi::xml_node add_lines(pugi::xml_node root, const char* name) {
+  return add(root, "g",
+             {{"class", name},
+              {"fill", "none"},
+              {"stroke-width", "0.6"},
+              {"stroke-linecap", "round"},
+              {"stroke-linejoin", "round"}});
+}
+
 void draw_written(pugi::xml_node root, const Character& character, std::span<const PenPath> paths,
                   const MatchResult& match, const svg::View& view) {
-  pugi::xml_node lines = add(root, "g",
-                             {{"class", "written"},
-                              {"fill", "none"},
-                              {"stroke-width", "0.6"},
-                              {"stroke-linecap", "round"},
-                              {"stroke-linejoin", "round"}});
+  pugi::xml_node lines = add_lines(root, "written");
   pugi::xml_node halos = add(root, "g",
                              {{"class", "halo"},
                               {"text-anchor", "middle"},
@@ -219,29 +204,22 @@ void draw_written(pugi::xml_node root, const Character& character, std::span<con
   Labels labels;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (bounced(match.drawn[i])) continue;
-    const std::vector<Point> points = in_picture(paths[i], view);
+    const std::vector<Point> points = view(paths[i]);
     const char* const colour = colour_of(match, i);
     draw_path(lines, points, colour);
     draw_arrow(lines, points, colour);
     draw_label(numbers, halos, labels, points, std::to_string(i + 1), colour);
   }
-  std::size_t stroke = 0;
-  for (const Stroke& each : strokes(character)) {
-    const std::vector<Point> points = in_picture(middle_line(each, {Point::Zero(), 1.0}), view);
-    draw_label(standard, halos, labels, points, std::to_string(stroke + 1),
-               is_missing(match, stroke) ? wrong : number_colour);
-    ++stroke;
+  const std::vector<std::vector<Point>> templates = middle_lines(character);
+  for (std::size_t i = 0; i < templates.size(); ++i) {
+    draw_label(standard, halos, labels, view(templates[i]), std::to_string(i + 1),
+               is_missing(match, i) ? wrong : number_colour);
   }
 }
 
 void draw_guided(pugi::xml_node root, std::span<const PenPath> guided, const svg::View& view) {
-  pugi::xml_node lines = add(root, "g",
-                             {{"class", "guided"},
-                              {"fill", "none"},
-                              {"stroke-width", "0.6"},
-                              {"stroke-linecap", "round"},
-                              {"stroke-linejoin", "round"}});
-  for (const PenPath& path : guided) draw_path(lines, in_picture(path, view), device_colour);
+  pugi::xml_node lines = add_lines(root, "guided");
+  for (const PenPath& path : guided) draw_path(lines, view(path), device_colour);
 }
 
 std::vector<std::string> lines_of(const MatchResult& match, const Character& character, const Language& language) {

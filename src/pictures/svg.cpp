@@ -1,6 +1,5 @@
 #include "svg.hpp"
 
-#include <cmath>
 #include <cstddef>
 #include <sstream>
 
@@ -30,24 +29,49 @@ std::string clean(std::string_view text) {
   return result;
 }
 
-pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes attributes) {
-  pugi::xml_node node = parent.append_child(name);
+namespace {
+
+pugi::xml_node with(pugi::xml_node node, Attributes attributes) {
   for (const auto& [key, value] : attributes) node.append_attribute(key) = value.c_str();
   return node;
+}
+
+}  // namespace
+
+pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes attributes) {
+  return with(parent.append_child(name), attributes);
 }
 
 pugi::xml_node add_text(pugi::xml_node parent, double x, double y, double size, const std::string& text,
                         Attributes attributes) {
   pugi::xml_node node = add(parent, "text", {{"x", number(x)}, {"y", number(y)}, {"font-size", number(size)}});
-  for (const auto& [key, value] : attributes) node.append_attribute(key) = value.c_str();
   node.text() = text.c_str();
-  return node;
+  return with(node, attributes);
+}
+
+pugi::xml_node add_rect(pugi::xml_node parent, const Point& corner, double width, double height,
+                        Attributes attributes) {
+  const std::string x = number(corner.x()), y = number(corner.y());
+  return with(add(parent, "rect", {{"x", x}, {"y", y}, {"width", number(width)}, {"height", number(height)}}),
+              attributes);
+}
+
+pugi::xml_node add_circle(pugi::xml_node parent, const char* name, const Point& centre, const char* radius,
+                          Attributes attributes) {
+  const std::string x = number(centre.x()), y = number(centre.y());
+  return with(add(parent, "circle", {{"class", name}, {"cx", x}, {"cy", y}, {"r", radius}}), attributes);
 }
 
 double text_width(std::string_view text, double size) {
   double width = 0.0;
   for (const char32_t code : decode_utf8(text)) width += code < 0x2e80 ? 0.58 : 1.0;
   return width * size;
+}
+
+std::vector<Point> View::operator()(std::span<const Point> points) const {
+  std::vector<Point> result;
+  for (const Point& point : points) result.push_back((*this)(point));
+  return result;
 }
 
 void Path::append(char command, std::initializer_list<Point> points) {
@@ -83,12 +107,14 @@ std::string stroke_path(const Stroke& stroke, const View& view) {
   return path.data();
 }
 
-std::string polygon_path(std::span<const Point> polygon, const View& view) {
+std::string line_path(std::span<const Point> points) {
   Path path;
-  path.move_to(view(polygon.front()));
-  for (const Point& point : polygon.subspan(1)) path.line_to(view(point));
-  return path.data() + "Z";
+  path.move_to(points.front());
+  for (const Point& point : points.size() == 1 ? points : points.subspan(1)) path.line_to(point);
+  return path.data();
 }
+
+std::string polygon_path(std::span<const Point> points) { return line_path(points) + "Z"; }
 
 pugi::xml_node add_stroke_group(pugi::xml_node parent, const std::string& name, StrokeStyle style, const char* colour,
                                 double line_width) {
@@ -104,7 +130,7 @@ pugi::xml_node add_stroke_group(pugi::xml_node parent, const std::string& name, 
 
 void add_stroke(pugi::xml_node group, const Stroke& stroke, StrokeStyle style, const View& view) {
   const bool lines = style == StrokeStyle::lines;
-  add(group, "path", {{"d", lines ? stroke_path(stroke, view) : polygon_path(ink_outline(stroke), view)}});
+  add(group, "path", {{"d", lines ? stroke_path(stroke, view) : polygon_path(view(ink_outline(stroke)))}});
 }
 
 pugi::xml_node begin(pugi::xml_document& document, double width, double height, const char* unit,

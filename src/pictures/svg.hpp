@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <pugixml.hpp>
 
@@ -29,6 +30,12 @@ pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes attribute
 pugi::xml_node add_text(pugi::xml_node parent, double x, double y, double size, const std::string& text,
                         Attributes attributes = {});
 
+/// A rectangle, from its upper left corner.
+pugi::xml_node add_rect(pugi::xml_node parent, const Point& corner, double width, double height,
+                        Attributes attributes = {});
+pugi::xml_node add_circle(pugi::xml_node parent, const char* name, const Point& centre, const char* radius,
+                          Attributes attributes);
+
 /// Approximate width of the text in a sans-serif font.
 double text_width(std::string_view text, double size);
 
@@ -38,6 +45,7 @@ struct View {
   double scale = 1.0;
 
   Point operator()(const Point& point) const { return origin + scale * Point(point.x(), -point.y()); }
+  std::vector<Point> operator()(std::span<const Point> points) const;
 };
 
 /// Path data "M x,y ...".
@@ -57,8 +65,10 @@ class Path {
 /// The stroke's middle line: cubic curves as they are, quartic ones as fine polylines.
 std::string stroke_path(const Stroke& stroke, const View& view);
 
-/// A polygon [em] as a closed path.
-std::string polygon_path(std::span<const Point> polygon, const View& view);
+/// A polyline. A lone point becomes a dot, as a pen that stood still leaves it.
+std::string line_path(std::span<const Point> points);
+/// The closed polygon.
+std::string polygon_path(std::span<const Point> points);
 
 /// A group whose children are paths of add_stroke() in the same style. `line_width` is that of lines, in the units of
 /// the picture.

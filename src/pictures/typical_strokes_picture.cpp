@@ -19,7 +19,6 @@ using svg::add;
 using svg::add_text;
 using svg::faint;
 using svg::ink;
-using svg::number;
 
 // [px]
 constexpr int sheet_columns = 8;
@@ -29,54 +28,30 @@ constexpr const char* stroke_blue = "#a9c4f5";
 constexpr const char* polygon_grey = "#777777";
 
 void draw_feature_point(pugi::xml_node parent, const Point& at) {
-  add(parent, "circle",
-      {{"class", "feature"}, {"cx", number(at.x())}, {"cy", number(at.y())}, {"r", "3"}, {"fill", point_red}});
+  svg::add_circle(parent, "feature", at, "3", {{"fill", point_red}});
 }
 
 void draw_control_point(pugi::xml_node parent, const Point& at) {
-  add(parent, "circle",
-      {{"class", "control"},
-       {"cx", number(at.x())},
-       {"cy", number(at.y())},
-       {"r", "3"},
-       {"fill", "#ffffff"},
-       {"stroke", polygon_grey}});
+  svg::add_circle(parent, "control", at, "3", {{"fill", "#ffffff"}, {"stroke", polygon_grey}});
 }
 
 /// A ring round the start and an arrow head that leaves it.
 void draw_start(pugi::xml_node parent, const Point& start, const Point& towards) {
   const Point direction = (towards - start).normalized();
   const Point side(-direction.y(), direction.x());
-  add(parent, "circle",
-      {{"class", "start"},
-       {"cx", number(start.x())},
-       {"cy", number(start.y())},
-       {"r", "6.5"},
-       {"fill", "none"},
-       {"stroke", point_red},
-       {"stroke-width", "1.3"}});
-  svg::Path head;
-  head.move_to(start + 19.0 * direction);
-  head.line_to(start + 10.0 * direction + 4.2 * side);
-  head.line_to(start + 10.0 * direction - 4.2 * side);
-  add(parent, "path", {{"d", head.data() + "Z"}, {"fill", point_red}});
+  svg::add_circle(parent, "start", start, "6.5", {{"fill", "none"}, {"stroke", point_red}, {"stroke-width", "1.3"}});
+  const Point back = start + 10.0 * direction;
+  const std::vector<Point> head = {start + 19.0 * direction, back + 4.2 * side, back - 4.2 * side};
+  add(parent, "path", {{"d", svg::polygon_path(head)}, {"fill", point_red}});
 }
 
 void draw_polygon(pugi::xml_node parent, std::span<const Point> points) {
-  svg::Path path;
-  path.move_to(points[0]);
-  for (const Point& point : points.subspan(1)) path.line_to(point);
-  add(parent, "path", {{"d", path.data()}, {"fill", "none"}, {"stroke", polygon_grey}, {"stroke-dasharray", "4 3"}});
+  const std::string line = svg::line_path(points);
+  add(parent, "path", {{"d", line}, {"fill", "none"}, {"stroke", polygon_grey}, {"stroke-dasharray", "4 3"}});
 }
 
 void draw_frame(pugi::xml_node parent, double x, double y) {
-  add(parent, "rect",
-      {{"x", number(x)},
-       {"y", number(y)},
-       {"width", number(cell_em)},
-       {"height", number(cell_em)},
-       {"fill", "none"},
-       {"stroke", faint}});
+  svg::add_rect(parent, {x, y}, cell_em, cell_em, {{"fill", "none"}, {"stroke", faint}});
 }
 
 void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, StrokeStyle style, double x, double y) {
@@ -88,8 +63,7 @@ void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, Strok
   pugi::xml_node group = svg::add_stroke_group(parent, "template", style, stroke_blue, 9.0);
   svg::add_stroke(group, strokes(character).front(), style, view);
 
-  std::vector<Point> points;
-  for (const Point& point : em_points) points.push_back(view(point));
+  const std::vector<Point> points = view(em_points);
   const std::vector<int> features = feature_points(type.elements);
   for (std::size_t i = 0; i < type.elements.size(); ++i) {
     if (type.elements[i] != static_cast<char>(ElementKind::curve)) continue;
