@@ -13,11 +13,11 @@ struct JudgeConstants {
   double pen_spacing = 0.005;        ///< least spacing of points kept, above a resting pen's noise (CHANGELOG.md) [em]
   double join_cost = 0.02;           ///< cost of each missing pen lift [em]
   double break_cost = 0.03;          ///< cost of each superfluous pen lift [em]
-  double unlikely_count_cost = 0.1;  ///< extra cost of a lift where the number of pen-downs speaks against it [em]
+  double unlikely_count_cost = 0.1;  ///< extra cost of a join or break that the number of pen-downs speaks against [em]
   double max_substitute_cost = 0.7;  ///< highest cost of a pen-down read as the missing stroke in its place [em]
-  double max_attempt_cost = 0.08;    ///< highest cost as a stroke that the pen-down beside it attempted, too [em]
-  double max_attempt_share = 0.25;   ///< highest such cost, over that as the stroke in whose place it is [1]
-  double max_similar_price = 1.25;   ///< price of a form, over the least, up to which mistakes decide; on 74 traces [1]
+  double max_attempt_cost = 0.08;    ///< highest cost of a pen-down as the stroke that was attempted beside it [em]
+  double max_attempt_share = 0.25;   ///< highest cost as an attempted stroke, over that as the stroke in its place [1]
+  double max_similar_price = 1.25;   ///< price ratio of forms up to which mistakes decide; on 74 traces of people [1]
 
   // Costs of a pen-down as a stroke, as several strokes, or as a part of one.
   double left_over_cost = 0.2;              ///< cost of a pen-down or a stroke without a partner [em]
@@ -40,17 +40,17 @@ struct JudgeConstants {
   double max_fitted_cost = 0.2;      ///< highest cost of a pair that counts for the fit [em]
   double max_fit_slant = 0.6;        ///< greatest slant from the start, size aside: 33 degrees of turn or shear [1]
   double max_fit_scale = 1.8;        ///< greatest scale against the start, either way [1]
-  double max_refits = 5.0;           ///< most fits of the writing to what was read [1]
+  double max_refits = 5.0;           ///< greatest number of refits to what was read [1]
   double min_refit_gain = 5e-4;      ///< least gain in cost for which refitting goes on [em]
   double doubtful_mean_cost = 0.06;  ///< mean cost of a reading from which turned writing is tried too [em]
   double start_turn = 16.0;          ///< turn of the writing tried for a doubtful reading, either way [degrees]
 
   // Direction: whether a path runs along its stroke, against it or neither way, and whether it is all of it.
-  double forwards_angle = std::numbers::pi / 3.0;            ///< largest angle if forwards: the renderer's [rad]
-  double backwards_angle = 55.0 * std::numbers::pi / 180.0;  ///< largest angle to the reverse if backwards [rad]
-  double untrusted_angle = std::numbers::pi / 3.0;           ///< further angle where no direction is trusted [rad]
+  double forwards_angle = std::numbers::pi / 3.0;            ///< largest angle of a forwards path: the renderer's [rad]
+  double backwards_angle = 55.0 * std::numbers::pi / 180.0;  ///< largest angle to the reverse of a backwards path [rad]
+  double untrusted_angle = std::numbers::pi / 3.0;           ///< additional angle where no direction is trusted [rad]
   double least_share = 0.35;                                 ///< share of the length below which it is only a part [1]
-  double sure_length = 0.2;                                  ///< length that must be missing from such a part [em]
+  double sure_length = 0.2;                                  ///< length that must be missing from a part [em]
 
   // Order: what must speak for another than the right one.
   double min_saving = 0.03;    ///< least saving of another order, or of writing taken as it is, not from its box [em]
@@ -61,11 +61,11 @@ struct JudgeConstants {
 
   // Other characters.
   double feature_deviation = 0.25;     ///< standard deviation of the points of a feature along each axis [em]
-  double min_deviation_share = 0.25;   ///< least share of the larger deviation that the smaller counts as before [1]
-  double beyond_middle = 0.2;          ///< share of the way from the middle to the other from which it is reported [1]
-  double carelessness = 0.3;           ///< further way for one stroke, over the distance from the other character [1]
-  double lookalike_distance = 0.06;    ///< distance below which two hardly differ: 125 of 4.3 million pairs [em]
-  double drawn_alike_distance = 0.01;  ///< distance below which two do not differ: two of those pairs [em]
+  double min_deviation_share = 0.25;   ///< least value of the smaller deviation before scaling, over the larger [1]
+  double beyond_middle = 0.2;          ///< distance past the middle to report another character, over half the way [1]
+  double carelessness = 0.3;           ///< further distance for a single stroke, over that from the other character [1]
+  double lookalike_distance = 0.06;    ///< distance below which characters hardly differ: 125 of 4.3 million pairs [em]
+  double drawn_alike_distance = 0.01;  ///< distance below which characters do not differ: two of those pairs [em]
   double unlike_price = 0.085;         ///< price per pen-down from which the best form is unlike; on 46 strangers [em]
 
   // Unfinished characters: remarks as distances; chosen on sessions of simulated novices that were cut off.

@@ -8,7 +8,6 @@
 #include <optional>
 #include <ostream>
 #include <system_error>
-#include <type_traits>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
@@ -42,16 +41,11 @@ std::string code_in_hex(char32_t code) {
   return std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
 }
 
-template <typename Number>
-std::optional<Number> number_in(std::string_view word, int base = 10) {
+template <typename Number, typename... Base>
+std::optional<Number> number_in(std::string_view word, Base... base) {
   Number value{};
   const char* const end = word.data() + word.size();
-  std::from_chars_result result{};
-  if constexpr (std::is_floating_point_v<Number>) {
-    result = from_chars(word.data(), end, value);
-  } else {
-    result = from_chars(word.data(), end, value, base);
-  }
+  const std::from_chars_result result = from_chars(word.data(), end, value, base...);
   if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
   return value;
 }

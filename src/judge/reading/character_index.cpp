@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "character_features.hpp"
-#include "judge/pens/require_paths.hpp"
+#include "judge/pens/pen_paths.hpp"
 
 namespace calligraphy {
 

@@ -7,7 +7,7 @@
 
 namespace calligraphy {
 
-/// Length of the pen-downs of a step over that of the strokes as which it reads them.
+/// Length of the pen-downs of a step over that of the strokes they are read as.
 double length_share(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes);
 
 struct StrokeDirection {

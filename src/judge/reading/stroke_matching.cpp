@@ -14,8 +14,7 @@
 
 #include "base/require.hpp"
 #include "judge/judge_constants.hpp"
-#include "judge/pens/require_paths.hpp"
-#include "judge/pens/writing_box.hpp"
+#include "judge/pens/pen_paths.hpp"
 #include "judge/remarks/stroke_remarks.hpp"
 #include "other_character.hpp"
 #include "stroke_direction.hpp"
@@ -150,17 +149,8 @@ void validate(const JudgeTolerances& tolerances) {
 }
 
 const char* to_string(WritingDirection direction) noexcept {
-  switch (direction) {
-    case WritingDirection::forwards:
-      return "forwards";
-    case WritingDirection::backwards:
-      return "backwards";
-    case WritingDirection::neither:
-      return "neither";
-    case WritingDirection::unknown:
-      break;
-  }
-  return "unknown";
+  constexpr std::array names = {"forwards", "backwards", "neither", "unknown"};
+  return names[static_cast<std::size_t>(direction)];
 }
 
 const char* to_string(StrokeRemarkKind kind) noexcept {

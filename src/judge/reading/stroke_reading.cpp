@@ -1,17 +1,20 @@
 #include "stroke_reading.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
 
 #include "assignment.hpp"
 #include "judge/judge_constants.hpp"
 #include "stroke_direction.hpp"
-#include "writing_fit.hpp"
 #include "writing_order.hpp"
 
 namespace calligraphy {
@@ -69,14 +72,53 @@ StrokeReading read_in_this_order(Costs costs, std::span<const std::size_t> order
   return reading;
 }
 
+/// The affine map from the pen-downs to the strokes they are read as, by least squares. It is pulled towards the start,
+/// because a few strokes reveal little about slant and size. None if nothing was written, or if the map slants or
+/// scales the writing so much more than the start does that handwriting cannot explain it.
+std::optional<AffineMap> fit_writing(const StrokeReading& reading, const StrokeOutlines& strokes,
+                                     std::span<const DrawnLine> drawn, const AffineMap& start) {
+  std::vector<std::pair<Outline, Outline>> pairs;
+  Point from = Point::Zero(), to = Point::Zero();
+  for (const ReadingStep& step : reading.steps) {
+    if (step.paths != 1 || step.strokes == 0 || reading.costs->is_tap(step.path)) continue;
+    if (step.cost > judge_constants.max_fitted_cost) continue;
+    Outline wanted = strokes.run(step.stroke, step.strokes).line;
+    if (reading.pair(step).backwards) wanted = reversed(wanted);
+    pairs.emplace_back(drawn[step.path].line, wanted);
+    from += pairs.back().first.colwise().mean().transpose();
+    to += wanted.colwise().mean().transpose();
+  }
+  if (pairs.empty()) return std::nullopt;
+  const auto count = static_cast<double>(pairs.size());
+  from /= count;
+  to /= count;
+  Eigen::Matrix2d square = Eigen::Matrix2d::Zero(), product = Eigen::Matrix2d::Zero();
+  for (const auto& [line, wanted] : pairs) {
+    const Outline p = line.rowwise() - from.transpose(), q = wanted.rowwise() - to.transpose();
+    square += p.transpose() * p;
+    product += q.transpose() * p;
+  }
+  const double points = count * static_cast<double>(Outline::RowsAtCompileTime);
+  const double spread = points * judge_constants.fit_pull / std::abs(start.linear.determinant());
+  const Eigen::Matrix2d linear =
+      (product + spread * start.linear) * (square + spread * Eigen::Matrix2d::Identity()).inverse();
+  const Eigen::Matrix2d change = linear * start.linear.inverse();
+  const double size = change.determinant();
+  const double max_size = judge_constants.max_fit_scale * judge_constants.max_fit_scale;
+  if (!(size > 1.0 / max_size && size < max_size)) return std::nullopt;
+  const Eigen::Matrix2d slant = change / std::sqrt(size) - Eigen::Matrix2d::Identity();
+  if (slant.jacobiSvd().singularValues()[0] > judge_constants.max_fit_slant) return std::nullopt;
+  return AffineMap{linear, to - linear * from};
+}
+
 class Reader {
  public:
   Reader(const Character& character, const StrokeOutlines& strokes, std::span<const PenPath> paths)
       : character_(character), strokes_(strokes), paths_(paths), drawn_(drawn_lines(paths)) {}
 
   /// Starts from the box of the pen-downs, or from where they are if that fits clearly better at once. If there is then
-  /// something to remark or the fit is poor, the hand may be slanted: starts from the box turned either way too. With a
-  /// single line, nobody can tell a slanted hand from a slanted stroke.
+  /// something to remark or the fit is poor, the hand may be slanted: starts from the box turned both ways as well.
+  /// With a single line, nobody can tell a slanted hand from a slanted stroke.
   StrokeReading read() {
     const Start boxed = begin(box_of_turned(0.0)), here = begin(AffineMap());
     Pair best = refine(here.cost() < boxed.cost() - judge_constants.min_saving ? here : boxed);

@@ -13,7 +13,7 @@
 
 namespace calligraphy {
 
-/// Pen-downs and the strokes as which they are read. No pen-down: a missing stroke; no stroke: an extra pen-down;
+/// Pen-downs and the strokes they are read as. No pen-down: a missing stroke; no stroke: an extra pen-down;
 /// several strokes: joined strokes; two pen-downs: a broken stroke.
 struct ReadingStep {
   std::size_t path = 0, paths = 0;

@@ -13,8 +13,8 @@
 #include <calligraphy/judge/pen_path.hpp>
 
 #include "judge/judge_constants.hpp"
+#include "judge/pens/pen_paths.hpp"
 #include "judge/pens/resemblance.hpp"
-#include "judge/pens/writing_box.hpp"
 
 namespace calligraphy {
 namespace {

@@ -7,8 +7,8 @@
 #include <Eigen/LU>
 
 #include "judge/judge_constants.hpp"
+#include "judge/pens/pen_paths.hpp"
 #include "judge/pens/resemblance.hpp"
-#include "judge/pens/writing_box.hpp"
 #include "judge/reading/writing_order.hpp"
 
 namespace calligraphy {

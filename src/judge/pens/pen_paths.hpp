@@ -1,4 +1,4 @@
-// The bounding box of the pen-downs of a character.
+// The pen-downs of a character: whether they can be read, and the box that they fill.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,10 @@
 #include <calligraphy/judge/pen_path.hpp>
 
 namespace calligraphy {
+
+/// @throws ValueError naming the pen-down if there are more than 1000, or one is empty, not finite or more than 1e9 em
+/// away
+void require_paths(std::span<const PenPath> paths);
 
 /// The box of all pen-downs, taps included; empty if there are none.
 inline Eigen::AlignedBox2d box_of_all(std::span<const PenPath> paths) {
