@@ -102,11 +102,9 @@ class RecordingParser : private LineReader {
     for (Eigen::Vector3d* vector : {&sample.device_point, &sample.pen_tip, &sample.force}) {
       for (double& value : *vector) value = next_number<double>();
     }
-    sample.state = next_of(
-        states, [](auto each) { return to_string(each); }, "SS, AS, CS or WS");
+    sample.state = next_of(states, "SS, AS, CS or WS");
     sample.events = static_cast<TickEvent>(next_integer(all_events));
-    sample.status = next_of(
-        statuses, [](auto each) { return to_string(each); }, "ok, stale, bad_sample, device_fault, bad_clock or bad_law");
+    sample.status = next_of(statuses, "ok, stale, bad_sample, device_fault, bad_clock or bad_law");
     sample.character = next_integer(std::numeric_limits<int>::max());
     sample.stroke = next_integer(std::numeric_limits<int>::max());
     sample.tick_ns = next_number<float>();
@@ -156,11 +154,11 @@ class RecordingParser : private LineReader {
     return value;
   }
 
-  template <typename Values, typename Name>
-  typename Values::value_type next_of(const Values& values, Name name, const char* expected) {
+  template <typename Values>
+  typename Values::value_type next_of(const Values& values, const char* expected) {
     const std::size_t i = column_++;
     for (const auto value : values) {
-      if (values_[i] == name(value)) return value;
+      if (values_[i] == to_string(value)) return value;
     }
     fail(std::string(column_names[i]) + " is '" + std::string(values_[i]) + "': expected " + expected);
   }

@@ -56,13 +56,6 @@ double distance_to_path(const Point& point, const std::vector<Point>& path) {
   return nearest;
 }
 
-std::vector<Point> points_of(const PenStroke& samples) {
-  std::vector<Point> points;
-  points.reserve(samples.size());
-  for (const TimedPoint& sample : samples) points.push_back(sample.point);
-  return points;
-}
-
 /// A stroke of the page, prepared for measuring.
 struct Template {
   std::vector<StrokeElement> elements;
@@ -140,7 +133,9 @@ class CharacterScorer {
     const double least = detail::judge_constants.pen_spacing;
     const double spacing = std::max(least, std::min(sensor_noise / placement_.em, 4.0 * least)) * placement_.em;
     for (const PenDown* down : downs_) {
-      paths_.push_back(without_jitter(points_of(down->samples), spacing));
+      std::vector<Point> all;
+      for (const TimedPoint& sample : down->samples) all.push_back(sample.point);
+      paths_.push_back(without_jitter(all, spacing));
       PenPath& path = paths.emplace_back();
       for (const Point& point : paths_.back()) path.push_back((point - placement_.origin) / placement_.em);
       result_.pen_downs.push_back({pen_kinematics(down->samples), mean_pressure({&down, 1})});

@@ -24,6 +24,19 @@ Eigen::Vector3d resting_point(const PracticePage& page) {
   return {0.5 * page.width, 0.5 * page.height, resting_height};
 }
 
+/// Renders the device's present sample, sends the force and records the tick.
+const HapticTick& record_tick(const PracticePage& page, HapticDevice& device, SessionTick& session,
+                              const SessionOptions& options, Recording& recording) {
+  const HapticTick& tick = session.update(device.read());
+  if (session.has_failed()) std::rethrow_exception(session.error());
+  device.write(session.force());
+  recording.samples.push_back(session.sample());
+  if (options.progress && recording.samples.size() % progress_interval == 0) {
+    options.progress(share_written(page, tick.character, tick.stroke));
+  }
+  return tick;
+}
+
 }  // namespace
 
 const char* to_string(FeedbackMode mode) noexcept { return mode == FeedbackMode::vision ? "vision" : "force"; }
@@ -50,14 +63,7 @@ Recording run_session(const PracticePage& page, const SessionOptions& options, c
   const double longest = options.character_timeout * static_cast<double>(page.characters.size());
   Recording recording = recording_for(page, renderer, options.mode, options.law);
   while (device.time() < longest) {
-    const HapticTick& tick = session.update(device.read());
-    if (session.has_failed()) std::rethrow_exception(session.error());
-    device.write(session.force());
-    recording.samples.push_back(session.sample());
-    if (options.progress && recording.samples.size() % progress_interval == 0) {
-      options.progress(share_written(page, tick.character, tick.stroke));
-    }
-    const std::optional<Intention> next = motion(tick, period);
+    const std::optional<Intention> next = motion(record_tick(page, device, session, options, recording), period);
     if (!next) break;
     device.set_intention(to_device(*next, mapping));
     device.advance(period);
@@ -96,15 +102,7 @@ Recording replay_page(const PracticePage& page, ReplayDevice& device, const Sess
   const detail::FlushDenormals as_a_servo_thread;
   SessionTick session(renderer, device.capabilities(), options.mode, options.law, options.measure_ticks);
   Recording recording = recording_for(page, renderer, options.mode, options.law);
-  while (!device.finished()) {
-    const HapticTick& tick = session.update(device.read());
-    if (session.has_failed()) std::rethrow_exception(session.error());
-    device.write(session.force());
-    recording.samples.push_back(session.sample());
-    if (options.progress && recording.samples.size() % progress_interval == 0) {
-      options.progress(share_written(page, tick.character, tick.stroke));
-    }
-  }
+  while (!device.finished()) record_tick(page, device, session, options, recording);
   if (options.progress) options.progress(1.0);
   return recording;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <exception>
-#include <string>
 
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/practice/recording.hpp>

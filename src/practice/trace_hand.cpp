@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 #include <calligraphy/base/error.hpp>
 
 #include "base/require.hpp"
-#include "minimum_jerk.hpp"
-#include "pen_lift.hpp"
+#include "hand_motion.hpp"
 
 namespace calligraphy {
 namespace {

@@ -8,8 +8,7 @@
 #include <calligraphy/collision/nearest_point.hpp>
 
 #include "base/require.hpp"
-#include "minimum_jerk.hpp"
-#include "pen_lift.hpp"
+#include "hand_motion.hpp"
 
 namespace calligraphy {
 namespace {
@@ -53,35 +52,31 @@ VisualFeedback visual_feedback(const HapticTick& tick) noexcept {
 }
 
 WriterSkill WriterSkill::novice() {
-  WriterSkill skill;
-  skill.offset = 0.04;
-  skill.scale = 0.06;
-  skill.tilt = 0.05;
-  skill.shape = 0.03;
-  skill.drift = 0.04;
-  skill.tremor = 0.0002;
-  skill.aim = 0.03;
-  skill.wrong_order = 0.04;
-  skill.wrong_direction = 0.03;
-  skill.speed = 0.6;
-  skill.pause = 0.35;
-  skill.caution = 0.025;
-  return skill;
+  return {.offset = 0.04,
+          .scale = 0.06,
+          .tilt = 0.05,
+          .shape = 0.03,
+          .drift = 0.04,
+          .tremor = 0.0002,
+          .aim = 0.03,
+          .wrong_order = 0.04,
+          .wrong_direction = 0.03,
+          .speed = 0.6,
+          .pause = 0.35,
+          .caution = 0.025};
 }
 
 WriterSkill WriterSkill::skilled() {
-  WriterSkill skill;
-  skill.offset = 0.012;
-  skill.scale = 0.02;
-  skill.tilt = 0.015;
-  skill.shape = 0.01;
-  skill.drift = 0.012;
-  skill.tremor = 0.00005;
-  skill.aim = 0.01;
-  skill.speed = 1.0;
-  skill.pause = 0.2;
-  skill.caution = 0.025;
-  return skill;
+  return {.offset = 0.012,
+          .scale = 0.02,
+          .tilt = 0.015,
+          .shape = 0.01,
+          .drift = 0.012,
+          .tremor = 0.00005,
+          .aim = 0.01,
+          .speed = 1.0,
+          .pause = 0.2,
+          .caution = 0.025};
 }
 
 Point SimulatedWriter::Belief::operator()(const Point& truth) const {

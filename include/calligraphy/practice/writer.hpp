@@ -18,7 +18,7 @@ namespace calligraphy {
 /// Skill of a simulated writer. Lengths in em are relative to the character's square. Spreads are standard deviations
 /// of values drawn anew for each character, stroke or attempt.
 struct WriterSkill {
-  GripImpedance grip;            ///< impedance between the plan and the device
+  GripImpedance grip = {};       ///< impedance between the plan and the device
   double offset = 0.0;           ///< spread of the position of the believed character [em]
   double bias = 0.0;             ///< length of an additional offset in a direction drawn for each character [em]
   double scale = 0.0;            ///< spread of the scale of the believed character [1]

@@ -1,5 +1,7 @@
-// How a simulated hand raises, carries and lowers a pen, in metres of the page.
+// How a simulated hand moves a pen: raises, carries and lowers it, in metres of the page.
 #pragma once
+
+#include <algorithm>
 
 namespace calligraphy {
 
@@ -8,5 +10,11 @@ constexpr double pressed_depth = 0.0025;  // intended depth below the paper whil
 constexpr double lowering_time = 0.2;     // [s]
 constexpr double raising_time = 0.12;     // [s]
 constexpr double approach_speed = 0.12;   // upper bound of the mean speed in the air [m/s]
+
+/// Share of its way that a hand has covered after a share of the time, with minimum jerk (Flash and Hogan 1985).
+inline double minimum_jerk(double share) {
+  const double t = std::clamp(share, 0.0, 1.0);
+  return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
+}
 
 }  // namespace calligraphy
