@@ -172,15 +172,9 @@ class Scan {
     const auto piece = [&jumps](const Crossing& from, const Point& to) {
       jumps.push_back({from.place, to, from.jump, 0.0, from.passes_feature});
     };
-    if (found.size() == 2) {
-      const Point middle = 0.5 * (found[0].place + found[1].place);
-      if (found[0].passes_feature == found[1].passes_feature) {
-        piece(found[0].jump > found[1].jump ? found[0] : found[1],
-              found[0].jump > found[1].jump ? found[1].place : found[0].place);
-      } else {
-        for (const Crossing& each : found) piece(each, middle);
-      }
-      return;
+    if (found.size() == 2 && found[0].passes_feature == found[1].passes_feature) {
+      const std::size_t larger = found[0].jump > found[1].jump ? 0 : 1;
+      return piece(found[larger], found[1 - larger].place);
     }
     Point middle = Point::Zero();
     for (const Crossing& each : found) middle += each.place / static_cast<double>(found.size());

@@ -6,11 +6,14 @@
 #include <cstddef>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/bezier.hpp>
 
 #include "base/require.hpp"
 #include "model/random_points.hpp"
+#include "stroke_queries.hpp"
 
 namespace calligraphy {
 namespace {
@@ -20,20 +23,17 @@ constexpr int curves_per_workload = 64;
 using Curve = Bezier<3>;
 using Vertices = std::array<Point, 4>;
 
-double diagonal(const Curve& curve) {
-  Point low = curve.control_points[0], high = low;
-  for (const Point& point : curve.control_points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  return (high - low).norm();
+Eigen::AlignedBox2d box_of(const Curve& curve) {
+  Eigen::AlignedBox2d box;
+  for (const Point& point : curve.control_points) box.extend(point);
+  return box;
 }
 
 /// What a query is drawn from; a point, which has no size of its own, has size 1.
 struct Target {
   Curve curve;
   double size;
-  explicit Target(const Curve& of) : curve(of), size(diagonal(of)) {
+  explicit Target(const Curve& of) : curve(of), size(box_of(of).sizes().norm()) {
     if (!(size > 0.0)) size = 1.0;
   }
 };
@@ -167,14 +167,10 @@ Curve small(RandomPoints& random, int i) { return scaled(random_curve(random, i)
 
 /// In the box of the control points, widened by a quarter of the size on each side.
 Point in_box(RandomPoints& random, const Target& target) {
-  Point low = target.curve.control_points[0], high = low;
-  for (const Point& vertex : target.curve.control_points) {
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
+  const Eigen::AlignedBox2d box = box_of(target.curve);
   const Point margin = Point::Constant(0.25 * target.size);
   const Point share = random.point(0.0, 1.0);
-  return (low - margin) + share.cwiseProduct(high - low + 2.0 * margin);
+  return (box.min() - margin) + share.cwiseProduct(box.sizes() + 2.0 * margin);
 }
 
 /// Within a tenth of the size.
@@ -307,14 +303,8 @@ std::vector<std::vector<Point>> curve_control_points(std::span<const Character> 
   for (const Character& character : characters) {
     if (character.curve_degree != 3) continue;
     for (const Stroke& stroke : strokes(character)) {
-      std::size_t at = 0;
-      for (const char kind : stroke.elements) {
-        const std::size_t step = kind == 'C' ? 3 : 1;
-        if (kind == 'C') {
-          std::vector<Point>& curve = curves.emplace_back();
-          for (const Point& point : stroke.control_points.subspan(at, step + 1)) curve.push_back(em * point);
-        }
-        at += step;
+      for (std::vector<Point>& element : elements_of(stroke, em)) {
+        if (element.size() == 4) curves.push_back(std::move(element));
       }
     }
   }

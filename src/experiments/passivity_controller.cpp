@@ -1,7 +1,6 @@
 #include <calligraphy/experiments/passivity_controller.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/require.hpp"
 #include "collision/length.hpp"

@@ -7,7 +7,6 @@
 #include <functional>
 #include <limits>
 #include <span>
-#include <sstream>
 #include <utility>
 
 #include <calligraphy/base/random.hpp>
@@ -226,12 +225,6 @@ void fill(const std::vector<StabilityLine*>& lines, const StabilityMap& map,
   find_max_stable(lines, map, part(share_of_trials, 1.0 - share_of_trials), trials);
 }
 
-std::string text(double value) {
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
-
 template <typename Value, typename Change>
 StabilitySweep sweep(const Capabilities& device, const char* name, const char* label, const std::vector<Value>& values,
                      double in_unit, Change change) {
@@ -240,7 +233,7 @@ StabilitySweep sweep(const Capabilities& device, const char* name, const char* l
     StabilityLine line;
     line.loop.device = device;
     change(line.loop, value);
-    result.values.push_back(text(static_cast<double>(value) * in_unit));
+    result.values.push_back((Message() << static_cast<double>(value) * in_unit).str());
     result.lines.push_back(std::move(line));
   }
   return result;

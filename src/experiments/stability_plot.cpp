@@ -10,13 +10,12 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/experiments/stability_map.hpp>
 
+#include "base/require.hpp"
 #include "pictures/gnuplot.hpp"
 #include "pictures/svg.hpp"
 
 namespace calligraphy {
 namespace {
-
-using gnuplot::numeral;
 
 constexpr std::size_t panel_columns = 3;                                       // of panels
 constexpr double panels_left = 0.078, panels_right = 0.99, panel_gap = 0.025;  // of the panels, shares of the picture
@@ -63,8 +62,9 @@ std::string rectangles(const StabilitySweep& sweep, const Kind& kind, const std:
       if (!is_kind(k)) continue;
       const std::size_t first = k;
       while (k + 1 < stiffnesses.size() && is_kind(k + 1)) ++k;
-      lines += numeral(x) + " " + numeral(stiffnesses[first]) + " " + numeral(x - 0.5) + " " + numeral(x + 0.5) + " " +
-               numeral(stiffnesses[first] / half) + " " + numeral(stiffnesses[k] * half) + "\n";
+      lines += number_text(x) + " " + number_text(stiffnesses[first]) + " " + number_text(x - 0.5) + " " +
+               number_text(x + 0.5) + " " + number_text(stiffnesses[first] / half) + " " +
+               number_text(stiffnesses[k] * half) + "\n";
     }
   }
   return lines;
@@ -76,7 +76,8 @@ std::string steps(const StabilitySweep& sweep, double StabilityLine::*bound) {
   for (std::size_t i = 0; i < sweep.lines.size(); ++i) {
     const double value = sweep.lines[i].*bound, x = static_cast<double>(i);
     if (value > 0.0) {
-      lines += numeral(x - 0.5) + " " + numeral(value) + "\n" + numeral(x + 0.5) + " " + numeral(value) + "\n";
+      lines += number_text(x - 0.5) + " " + number_text(value) + "\n" + number_text(x + 0.5) + " " +
+               number_text(value) + "\n";
     } else {
       lines += "\n";
     }
@@ -89,7 +90,8 @@ std::string ticks(const StabilitySweep& sweep) {
   for (std::size_t i = 0; i < sweep.values.size(); ++i) {
     text += (i == 0 ? "" : ", ") + quoted(sweep.values[i]) + " " + std::to_string(i);
   }
-  return "set xtics (" + text + ")\nset xrange [-0.5:" + numeral(static_cast<double>(sweep.lines.size()) - 0.5) + "]\n";
+  return "set xtics (" + text + ")\nset xrange [-0.5:" + number_text(static_cast<double>(sweep.lines.size()) - 0.5) +
+         "]\n";
 }
 
 std::string place(std::size_t panel, std::size_t rows) {
@@ -97,8 +99,8 @@ std::string place(std::size_t panel, std::size_t rows) {
   const double width = (panels_right - panels_left - panel_gap * (panel_columns - 1)) / panel_columns;
   const double height = (panels_top - bottom - between * static_cast<double>(rows - 1)) / static_cast<double>(rows);
   const double begin = panels_left + column * (width + panel_gap), end = panels_top - row * (height + between);
-  return "set lmargin at screen " + numeral(begin) + "\nset rmargin at screen " + numeral(begin + width) +
-         "\nset tmargin at screen " + numeral(end) + "\nset bmargin at screen " + numeral(end - height) + "\n";
+  return "set lmargin at screen " + number_text(begin) + "\nset rmargin at screen " + number_text(begin + width) +
+         "\nset tmargin at screen " + number_text(end) + "\nset bmargin at screen " + number_text(end - height) + "\n";
 }
 
 /// Data blocks and the plot of one panel. The first panel has the legend for all of them.
@@ -135,7 +137,8 @@ std::string stability_map_plot(const StabilityMap& map) {
   std::string script = gnuplot::svg_terminal(1180, 120 + 340 * static_cast<int>(rows)) +
                        "set border 3 linecolor rgb '#666666'\nset tics nomirror out\nset logscale y\nset mytics 1\n"
                        "set multiplot\nset yrange [" +
-                       numeral(map.stiffnesses.front() / half) + ":" + numeral(map.stiffnesses.back() * half) + "]\n";
+                       number_text(map.stiffnesses.front() / half) + ":" + number_text(map.stiffnesses.back() * half) +
+                       "]\n";
   for (std::size_t i = 0; i < map.sweeps.size(); ++i) {
     script += place(i, rows) + panel(map.sweeps[i], i, map.stiffnesses);
   }

@@ -35,18 +35,6 @@ class Wobble {
   std::vector<Point> turning_points_;
 };
 
-std::vector<std::vector<Point>> elements_of(const Stroke& stroke, double em) {
-  std::vector<std::vector<Point>> elements;
-  const std::vector<int> ends = feature_points(stroke.elements, stroke.curve_degree);
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    std::vector<Point>& element = elements.emplace_back();
-    for (int k = ends[i]; k <= ends[i + 1]; ++k) {
-      element.push_back(em * stroke.control_points[static_cast<std::size_t>(k)]);
-    }
-  }
-  return elements;
-}
-
 std::vector<Point> path_along(const Stroke& stroke, const StrokeQueryOptions& options, RandomPoints& random) {
   ActiveStroke active;
   active.load(stroke, {Point::Zero(), options.em});
@@ -61,6 +49,18 @@ std::vector<Point> path_along(const Stroke& stroke, const StrokeQueryOptions& op
 }
 
 }  // namespace
+
+std::vector<std::vector<Point>> elements_of(const Stroke& stroke, double em) {
+  std::vector<std::vector<Point>> elements;
+  const std::vector<int> ends = feature_points(stroke.elements, stroke.curve_degree);
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    std::vector<Point>& element = elements.emplace_back();
+    for (int k = ends[i]; k <= ends[i + 1]; ++k) {
+      element.push_back(em * stroke.control_points[static_cast<std::size_t>(k)]);
+    }
+  }
+  return elements;
+}
 
 std::vector<StrokeQueries> stroke_queries(std::span<const Character> characters, const StrokeQueryOptions& options) {
   require_above_zero("stroke queries: em", options.em, "m");

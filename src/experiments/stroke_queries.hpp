@@ -15,6 +15,9 @@ struct StrokeQueries {
   std::vector<Point> path;                   ///< position of the pen tip at each tick [m]
 };
 
+/// Control points of each element of a stroke, on a square with an edge length of `em` [m].
+std::vector<std::vector<Point>> elements_of(const Stroke& stroke, double em);
+
 struct StrokeQueryOptions {
   double em = 0.04;       ///< edge length of a character's square [m]
   double rate = 1000.0;   ///< ticks per second [Hz]

@@ -8,13 +8,12 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/experiments/tradeoff.hpp>
 
+#include "base/require.hpp"
 #include "pictures/gnuplot.hpp"
 #include "pictures/svg.hpp"
 
 namespace calligraphy {
 namespace {
-
-using gnuplot::numeral;
 
 constexpr double to_millimetres = 1e3;
 constexpr double percent = 100.0;
@@ -85,7 +84,8 @@ std::string points_of(std::span<const NearestPointTradeoff> tradeoff, const Meth
   }
   std::string lines;
   for (const Mark& mark : marks) {
-    lines += numeral(mark.ns) + " " + numeral(mark.largest) + " " + numeral(mark.p99) + " \"" + label_of(mark) + "\"\n";
+    lines += number_text(mark.ns) + " " + number_text(mark.largest) + " " + number_text(mark.p99) + " \"" +
+             label_of(mark) + "\"\n";
   }
   return lines;
 }
@@ -95,7 +95,7 @@ std::string series(std::span<const Entry> tradeoff,
                    std::initializer_list<std::function<double(const Entry&)>> columns) {
   std::string lines;
   for (const Entry& entry : tradeoff) {
-    for (const auto& column : columns) lines += numeral(column(entry)) + " ";
+    for (const auto& column : columns) lines += number_text(column(entry)) + " ";
     lines += "\n";
   }
   return lines;
@@ -118,7 +118,7 @@ std::string nearest_point_tradeoff_plot(std::span<const NearestPointTradeoff> tr
     }
   }
   text +=
-      "set multiplot\nset logscale xy\nset xrange [" + numeral(0.3 * cheapest) + ":" + numeral(2.0 * dearest) +
+      "set multiplot\nset logscale xy\nset xrange [" + number_text(0.3 * cheapest) + ":" + number_text(2.0 * dearest) +
       "]\nset yrange [1e-19:1e4]\nset format y '%.0e'\nset xlabel 'median cost [ns]'\n"
       "set ytics 1e-17,1000,10\nset mytics 1\nset mxtics 1\nset xtics (10,20,50,100,200,500,1000,2000,5000,10000)\n"
       "set tmargin at screen 0.84\nset bmargin at screen 0.13\n"
@@ -140,9 +140,10 @@ std::string nearest_point_tradeoff_plot(std::span<const NearestPointTradeoff> tr
                "title '" + name + "', $" + name + " using 1:2:4 with labels " + method.label +
                " font ',10' textcolor rgb '" + method.colour + "' notitle";
     }
-    text += "set lmargin at screen " + numeral(left) + "\nset rmargin at screen " + numeral(right) + "\nset title '" +
-            heading + "'\n" + (key ? "set key horizontal at screen 0.98, 0.995 right top samplen 1\n" : "unset key\n") +
-            "plot " + plots + "\n";
+    text += "set lmargin at screen " + number_text(left) + "\nset rmargin at screen " + number_text(right) +
+            "\nset title '" + heading + "'\n" +
+            (key ? "set key horizontal at screen 0.98, 0.995 right top samplen 1\n" : "unset key\n") + "plot " + plots +
+            "\n";
   };
   text += "set ylabel 'distance error [curve sizes]: maximum, bar down to p99'\n";
   panel("queries around real strokes", 0.075, 0.36, &NearestPointTradeoff::real, true);

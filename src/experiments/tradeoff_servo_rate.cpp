@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>

@@ -2,15 +2,9 @@
 
 #include <calligraphy/base/error.hpp>
 
-#include "base/charconv.hpp"
 #include "process.hpp"
 
 namespace calligraphy::gnuplot {
-
-std::string numeral(double value) {
-  char buffer[32];
-  return {buffer, to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
 
 std::string svg_terminal(int width, int height) {
   return "set terminal svg noenhanced size " + std::to_string(width) + "," + std::to_string(height) +

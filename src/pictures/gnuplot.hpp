@@ -7,9 +7,6 @@
 
 namespace calligraphy::gnuplot {
 
-/// The shortest form that reads back exactly, independent of the locale.
-std::string numeral(double value);
-
 /// The beginning of a script: SVG of this size [px], on white.
 std::string svg_terminal(int width, int height);
 

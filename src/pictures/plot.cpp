@@ -10,6 +10,7 @@
 
 #include <calligraphy/base/error.hpp>
 
+#include "base/require.hpp"
 #include "gnuplot.hpp"
 #include "process.hpp"
 #include "svg.hpp"
@@ -72,7 +73,7 @@ std::string data_block(const std::vector<double>& time, const Signal& signal) {
   const std::size_t bucket = std::max<std::size_t>(1, (time.size() + buckets - 1) / buckets);
   const auto& values = signal.values;
   const auto point = [&](std::size_t i) {
-    if (std::isfinite(values[i])) text += gnuplot::numeral(time[i]) + " " + gnuplot::numeral(values[i]) + "\n";
+    if (std::isfinite(values[i])) text += number_text(time[i]) + " " + number_text(values[i]) + "\n";
   };
   for (std::size_t begin = 0; begin < time.size(); begin += bucket) {
     std::size_t low = begin, high = begin;
@@ -89,8 +90,8 @@ std::string data_block(const std::vector<double>& time, const Signal& signal) {
 std::string band_objects(const std::vector<Band>& bands) {
   std::string text;
   for (const Band& band : bands) {
-    text += "set object rectangle from first " + gnuplot::numeral(band.begin) + ", graph 0 to first " +
-            gnuplot::numeral(band.end) + ", graph 1 behind fillstyle solid noborder fillcolor rgb '" +
+    text += "set object rectangle from first " + number_text(band.begin) + ", graph 0 to first " +
+            number_text(band.end) + ", graph 1 behind fillstyle solid noborder fillcolor rgb '" +
             (band.abandoned ? "#e4e4e4" : "#e3ecfb") + "'\n";
   }
   return text;
@@ -105,7 +106,7 @@ std::string band_labels(const std::vector<Band>& bands, double begin, double end
     const double middle = 0.5 * (band.begin + band.end);
     if (middle - last < needed) continue;
     last = middle;
-    text += "set label '" + std::to_string(band.stroke + 1) + "' at first " + gnuplot::numeral(middle) +
+    text += "set label '" + std::to_string(band.stroke + 1) + "' at first " + number_text(middle) +
             ", graph 1 offset 0, 0.7 center textcolor rgb '" + (band.abandoned ? "#888888" : "#2f5fb3") + "'\n";
   }
   return text;
@@ -123,8 +124,8 @@ std::string y_range(std::span<const Signal> curves) {
   }
   if (low == high) high = 1.0;
   const double margin = 0.06 * (high - low);
-  return "set yrange [" + gnuplot::numeral(low < 0.0 ? low - margin : 0.0) + ":" +
-         gnuplot::numeral(high > 0.0 ? high + margin : 0.0) + "]\n";
+  return "set yrange [" + number_text(low < 0.0 ? low - margin : 0.0) + ":" +
+         number_text(high > 0.0 ? high + margin : 0.0) + "]\n";
 }
 
 /// The text of a key as gnuplot takes it.
@@ -140,9 +141,8 @@ std::string script(const Signals& signals, const Language& language) {
   const double end = std::max(signals.time.back(), begin + 1e-3);
   std::string text = gnuplot::svg_terminal(plot_width, plot_height);
   for (const Signal& signal : signals.curves) text += data_block(signals.time, signal);
-  text += "set lmargin at screen " + gnuplot::numeral(panel_left) + "\nset rmargin at screen " +
-          gnuplot::numeral(panel_right) + "\n" + "set xrange [" + gnuplot::numeral(begin) + ":" +
-          gnuplot::numeral(end) + "]\n" + band_objects(signals.bands) +
+  text += "set lmargin at screen " + number_text(panel_left) + "\nset rmargin at screen " + number_text(panel_right) +
+          "\n" + "set xrange [" + number_text(begin) + ":" + number_text(end) + "]\n" + band_objects(signals.bands) +
           "set grid back linetype 1 linecolor rgb '#dcdcdc' linewidth 0.5\n"
           "set border 3 linecolor rgb '#666666'\nset tics nomirror out\n"
           "set xzeroaxis linetype 1 linecolor rgb '#999999'\n";
@@ -160,8 +160,7 @@ std::string script(const Signals& signals, const Language& language) {
       "unset label\nset tmargin at screen 0.47\nset bmargin at screen 0.12\n"
       "set format x '%g'\nset xlabel " +
       quoted("plot.time", language) + "\nunset key\nset label " + quoted("plot.normal_force", language) +
-      " at screen 0.022, graph 0.5 center rotate\n" +
-      y_range(std::span(signals.curves).last(1)) +
+      " at screen 0.022, graph 0.5 center rotate\n" + y_range(std::span(signals.curves).last(1)) +
       "plot $normal with lines linewidth 1.3 linecolor rgb '#222222' notitle\n"
       "unset multiplot\n";
   return text;
