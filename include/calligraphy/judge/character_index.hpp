@@ -1,4 +1,4 @@
-// Recognising which character of a set a pen wrote: to look one up by drawing it, or to notice a wrong one.
+// Recognising which character of a set a pen wrote: for looking one up by drawing it, or noticing a wrong one.
 #pragma once
 
 #include <cstddef>

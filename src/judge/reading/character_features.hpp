@@ -18,8 +18,8 @@ namespace calligraphy {
 /// Number of points of each stroke in a feature.
 inline constexpr Eigen::Index points_in_stroke = 8;
 
-/// A column with the x and y of these points of each stroke, in order: centred, and with the same standard deviation
-/// along both axes unless the writing is a line.
+/// A column with the x and y of these points of each stroke, in order: about the centre of the whole writing, and with
+/// the same standard deviation along both axes unless the writing is a line.
 using CharacterFeature = Eigen::VectorXf;
 
 /// The feature of the outlines of pen-downs, or of a character.

@@ -15,7 +15,7 @@ namespace calligraphy {
 /// The most strokes that are read as written without lifting the pen.
 inline constexpr std::size_t max_joined = 6;
 
-/// What a pen draws that writes some strokes one after the other, joined by straight lines.
+/// What a pen draws when it writes a run of strokes without being lifted: the strokes, joined by straight lines.
 struct StrokeRun {
   Outline line;
   Outline shape;       ///< `line`, centred

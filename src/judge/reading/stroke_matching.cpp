@@ -60,7 +60,7 @@ void prefer_corrections(StrokeReading& reading) {
   }
 }
 
-/// Mean distance of what a step takes from its strokes; of both parts of a broken stroke together.
+/// Mean distance of the pen-downs of a step from its strokes; of both parts of a broken stroke together.
 double distance_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
   const StrokeCosts& costs = *reading.costs;
   const Outline& line = strokes.run(step.stroke, step.strokes).line;

@@ -387,7 +387,7 @@ class Reader {
     for (std::size_t i = 0; i < count; ++i) strokes[paths[i]] = written[i];
   }
 
-  /// The strokes with those sorted that were written between two pen-downs and also lie between their strokes.
+  /// The strokes, sorted where they were written between two pen-downs and also lie between the strokes of these.
   static std::vector<std::size_t> sorted_between(std::vector<std::size_t> strokes, std::size_t earlier,
                                                  std::size_t later) {
     std::vector<std::size_t> places, between;
