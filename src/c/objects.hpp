@@ -50,7 +50,7 @@ struct RendererObject {
   std::vector<Beginning> starts;   ///< of all strokes, and none after the last one of each character
   std::vector<std::size_t> first;  ///< by character: of its first stroke in `starts`; one more once all are written
 
-  /// Of the stroke that is due in a tick; zero if there is none.
+  /// Start of the stroke that is due in a tick; zero if there is none.
   const Beginning& next(const HapticTick& tick) const noexcept {
     return starts[first[static_cast<std::size_t>(tick.character)] + static_cast<std::size_t>(tick.stroke)];
   }
@@ -76,7 +76,7 @@ struct RecordingObject {
   Recording recording;
 };
 
-/// The stroke that a guidance law was told of last.
+/// The stroke that the last call of a guidance law's begin() named.
 struct StrokeObject {
   const ActiveStroke* stroke = nullptr;  ///< of the law's renderer
 };

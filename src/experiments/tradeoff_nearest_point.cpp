@@ -84,7 +84,7 @@ double time_of(const Workload& workload, const NearestPointOptions& options) {
   });
 }
 
-/// Likewise, with all queries to a curve in one call [s].
+/// The time with all queries to a curve in one call [s].
 double batch_time_of(const Workload& workload, const NearestPointOptions& options) {
   std::vector<NearestPoint> results;
   for (const Task& task : workload.tasks) results.resize(std::max(results.size(), task.queries.size()));

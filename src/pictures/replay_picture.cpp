@@ -24,7 +24,7 @@ using svg::ink;
 constexpr const char* template_colour = "#c5d6f7";
 constexpr const char* number_colour = "#2f62c9";
 constexpr const char* wrong = "#e02020";
-constexpr const char* told = "#e08a00";
+constexpr const char* noted = "#e08a00";
 constexpr const char* device_colour = "#2f9e44";
 
 // [mm]
@@ -133,7 +133,7 @@ const char* colour_of(const MatchResult& match, std::size_t path) {
   if (has_remark(match, path, {StrokeRemarkKind::order, StrokeRemarkKind::direction, StrokeRemarkKind::extra}))
     return wrong;
   if (has_remark(match, path, {StrokeRemarkKind::joined, StrokeRemarkKind::broken, StrokeRemarkKind::shape}))
-    return told;
+    return noted;
   return ink;
 }
 

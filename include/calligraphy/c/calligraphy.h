@@ -734,11 +734,11 @@ typedef enum calligraphy_remark_kind {
   CALLIGRAPHY_REMARK_BROKEN = 4,     ///< a stroke written in two pen-downs
   CALLIGRAPHY_REMARK_MISSING = 5,    ///< a stroke that was not written
   CALLIGRAPHY_REMARK_EXTRA = 6,      ///< a pen-down that matches no stroke of the character
-  CALLIGRAPHY_REMARK_CHARACTER = 7,  ///< the writing is another character: then nothing else is told
+  CALLIGRAPHY_REMARK_CHARACTER = 7,  ///< the writing is another character: then the only remark
   CALLIGRAPHY_REMARK_LOOKALIKE = 8   ///< a note: the writing is nearer to a character that hardly differs from this one
 } calligraphy_remark_kind;
 
-/// A remark: one fault, or what is told as one.
+/// A remark: one fault, or several that are one.
 typedef struct calligraphy_remark {
   uint32_t size;         ///< sizeof(calligraphy_remark)
   int32_t kind;          ///< a calligraphy_remark_kind
@@ -755,7 +755,7 @@ typedef struct calligraphy_remark {
   double evidence;           ///< how sure or how grave it is; infinite: always made [1]
 } calligraphy_remark;
 
-/// Number of languages in which people can be told what to do.
+/// Number of languages of texts for people.
 CALLIGRAPHY_API calligraphy_status calligraphy_language_count(int32_t* count);
 
 /// The code of the language with this index, such as "en" or "zh"; in static storage.
