@@ -300,8 +300,8 @@ void bytes_per_object(benchmark::State& state) {
   state.counters["ThermalBudget"] = sizeof(ThermalBudget);
   state.counters["PaperFriction"] = sizeof(PaperFriction);
   state.counters["ActiveStroke"] = sizeof(ActiveStroke);
-  state.counters["LineElement"] = sizeof(LineElement);
-  state.counters["CurveElement"] = sizeof(CurveElement);
+  state.counters["LineElement"] = sizeof(detail::LineElement);
+  state.counters["CurveElement"] = sizeof(detail::CurveElement);
   state.counters["HapticTick"] = sizeof(HapticTick);
   state.counters["DeviceState"] = sizeof(DeviceState);
   state.counters["RecordedSample"] = sizeof(RecordedSample);

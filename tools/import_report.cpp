@@ -10,8 +10,8 @@
 #include <calligraphy/base/text.hpp>
 
 #include "counted.hpp"
-#include "importers/check/report_figures.hpp"
-#include "importers/check/report_json.hpp"
+#include "importers/check/import_report_figures.hpp"
+#include "importers/check/import_report_json.hpp"
 #include "options.hpp"
 
 namespace calligraphy::tools {

@@ -6,7 +6,7 @@
 #include <calligraphy/base/text.hpp>
 
 #include "import_report.hpp"
-#include "importers/check/report_json.hpp"
+#include "importers/check/import_report_json.hpp"
 
 namespace calligraphy::tools {
 namespace {

@@ -15,7 +15,7 @@
 #include "commands.hpp"
 #include "counted.hpp"
 #include "import_report.hpp"
-#include "importers/check/report_json.hpp"
+#include "importers/check/import_report_json.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 

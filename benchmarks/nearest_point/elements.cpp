@@ -42,8 +42,8 @@ void run_kind(benchmark::State& state, const Kind& kind, std::vector<ElementCost
 }  // namespace
 
 void register_elements(const RunOptions& options, std::vector<ElementCost>& results) {
-  static const std::vector<Kind> kinds = {{"LSE", 2, sizeof(calligraphy::LineElement)},
-                                          {"CSE", 4, sizeof(calligraphy::CurveElement)}};
+  static const std::vector<Kind> kinds = {{"LSE", 2, sizeof(calligraphy::detail::LineElement)},
+                                          {"CSE", 4, sizeof(calligraphy::detail::CurveElement)}};
   for (const Kind& kind : kinds) {
     benchmark::RegisterBenchmark(("preparing/" + kind.name).c_str(),
                                  [&](benchmark::State& state) { run_kind(state, kind, results); })

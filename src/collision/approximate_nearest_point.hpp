@@ -5,6 +5,8 @@
 
 namespace calligraphy {
 
+using detail::CurveElement;
+
 NearestPoint sampled_nearest_point(const CurveElement& curve, const Point& query, const NearestPointOptions& options,
                                    const ParameterRange& range) noexcept;
 

@@ -7,6 +7,8 @@
 
 namespace calligraphy {
 
+using detail::CurveElement;
+
 NearestPoint certified_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                      const ParameterRange& range) noexcept;
 

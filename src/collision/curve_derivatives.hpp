@@ -9,6 +9,8 @@
 
 namespace calligraphy {
 
+using detail::CurveElement;
+
 /// The query relative to the curve's origin, in sizes.
 [[gnu::always_inline]] inline Pair in_sizes(const CurveElement& curve, const Point& query) {
   return (pair(query) - pair(curve.origin)) * curve.per_size;

@@ -9,6 +9,9 @@
 #include "slope_cells.hpp"
 
 namespace calligraphy {
+
+using detail::SlopeOrdinates;
+
 namespace {
 
 /// Length of the derivative relative to the element's size below which its direction is rounding noise.

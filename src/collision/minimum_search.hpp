@@ -7,6 +7,8 @@
 
 namespace calligraphy {
 
+using detail::CurveElement;
+
 /// `query` relative to the curve's origin and size, finite, at most 1e100.
 NearestPoint search_minima(const CurveElement& curve, Pair query, double tolerance,
                            const ParameterRange& range) noexcept;

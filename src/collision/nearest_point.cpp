@@ -12,6 +12,9 @@
 #include "length.hpp"
 
 namespace calligraphy {
+
+using detail::LineElement;
+
 namespace {
 
 /// Beyond this many lengths squares overflow.

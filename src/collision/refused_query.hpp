@@ -9,6 +9,8 @@
 
 namespace calligraphy {
 
+using detail::CurveElement;
+
 /// `query` in sizes.
 inline bool within_reach(Pair query) { return within(query, 1e100); }
 

@@ -8,6 +8,8 @@
 
 namespace calligraphy {
 
+using detail::CurveElement;
+
 /// As many cells as fit: each takes 2 * degree - 1 ordinates, and the last takes one more.
 constexpr int cells_of_degree(int degree) {
   return (static_cast<int>(CurveElement::max_ordinates) - 1) / (2 * degree - 1);

@@ -16,6 +16,8 @@
 
 namespace calligraphy {
 
+using detail::SlopeOrdinates;
+
 template <std::size_t Count>
 struct SlopeSigns {
   std::uint64_t negative = 0;  ///< bit i: ordinate i is below zero

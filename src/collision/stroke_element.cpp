@@ -8,6 +8,9 @@
 #include "length.hpp"
 
 namespace calligraphy {
+
+using detail::LineElement;
+
 namespace {
 
 /// A smaller curve counts as a point, since division by its size could overflow [m].

@@ -9,6 +9,8 @@
 #include "collision/slope_signs.hpp"
 
 using namespace calligraphy;
+using detail::CurveElement;
+using detail::LineElement;
 using calligraphy_test::hard_curves;
 using calligraphy_test::hard_queries;
 using calligraphy_test::HardCurve;

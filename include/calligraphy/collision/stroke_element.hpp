@@ -14,12 +14,13 @@ namespace calligraphy {
 
 /// A line or a curve, with their common interface.
 struct StrokeElement {
-  std::variant<LineElement, CurveElement> kind;  ///< prepared for queries; the functions below serve either
+  /// Prepared for queries; the functions below serve either.
+  std::variant<detail::LineElement, detail::CurveElement> kind;
 
   /// The line, or null if it is a curve.
-  const LineElement* line() const noexcept { return std::get_if<LineElement>(&kind); }
+  const detail::LineElement* line() const noexcept { return std::get_if<detail::LineElement>(&kind); }
   /// The curve, or null if it is a line.
-  const CurveElement* curve() const noexcept { return std::get_if<CurveElement>(&kind); }
+  const detail::CurveElement* curve() const noexcept { return std::get_if<detail::CurveElement>(&kind); }
 
   /// 1 for a line or a point, 2 to 4 for a curve.
   int degree() const noexcept { return curve() ? curve()->degree : 1; }

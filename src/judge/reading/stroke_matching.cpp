@@ -15,7 +15,7 @@
 #include "base/require.hpp"
 #include "judge/judge_constants.hpp"
 #include "judge/pens/pen_paths.hpp"
-#include "judge/remarks/stroke_remarks.hpp"
+#include "judge/remarks/remarks_on.hpp"
 #include "other_character.hpp"
 #include "stroke_direction.hpp"
 #include "writing_order.hpp"

@@ -7,7 +7,7 @@
 
 #include "judge/judge_constants.hpp"
 #include "judge/pens/resemblance.hpp"
-#include "judge/remarks/stroke_remarks.hpp"
+#include "judge/remarks/remarks_on.hpp"
 #include "stroke_direction.hpp"
 #include "writing_order.hpp"
 

@@ -8,7 +8,7 @@
 #include <calligraphy/model/point.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
-namespace calligraphy {
+namespace calligraphy::detail {
 
 /// Bernstein ordinates of g(t) = (B(t) - q) . B'(t), half the slope of the squared distance to a query q. They are
 /// affine in q: g_i = x_i q_x + y_i q_y + constant_i, with q relative to the curve's origin and size. Their signs bound
@@ -59,9 +59,7 @@ struct CurveElement {
   double parameter_at(double arc_length) const noexcept;
 };
 
-namespace detail {
 /// Prepares 3 to 5 control points, finite and not all equal as checked by prepare_element. Does not allocate.
 CurveElement prepare_curve(std::span<const Point> control_points) noexcept;
-}  // namespace detail
 
-}  // namespace calligraphy
+}  // namespace calligraphy::detail

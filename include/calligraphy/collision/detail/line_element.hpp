@@ -3,7 +3,7 @@
 
 #include <calligraphy/model/point.hpp>
 
-namespace calligraphy {
+namespace calligraphy::detail {
 
 /// B(t) = origin + t * edge. 56 bytes.
 struct LineElement {
@@ -15,8 +15,6 @@ struct LineElement {
   Point point(double t) const noexcept { return origin + t * edge; }
 };
 
-namespace detail {
 LineElement prepare_line(const Point& start, const Point& end) noexcept;
-}  // namespace detail
 
-}  // namespace calligraphy
+}  // namespace calligraphy::detail

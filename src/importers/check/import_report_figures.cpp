@@ -1,4 +1,4 @@
-#include "report_figures.hpp"
+#include "import_report_figures.hpp"
 
 #include <algorithm>
 #include <numeric>

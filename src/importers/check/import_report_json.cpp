@@ -1,4 +1,4 @@
-#include "report_json.hpp"
+#include "import_report_json.hpp"
 
 #include <string>
 
@@ -6,7 +6,7 @@
 
 #include <calligraphy/base/text.hpp>
 
-#include "report_figures.hpp"
+#include "import_report_figures.hpp"
 
 namespace calligraphy {
 namespace {

@@ -1,4 +1,4 @@
-#include "stroke_remarks.hpp"
+#include "remarks_on.hpp"
 
 #include <algorithm>
 #include <cstddef>
