@@ -181,9 +181,10 @@ std::string table(const ReplayReport& report, const Language& language) {
   const std::string forms = form_lines(report, language);
   if (!forms.empty()) text += "\n" + forms;
   if (!report.recognised.empty()) text += "\n" + recognised_lines(report, language);
+  const Language english;  // in which no other cell has the text of a correct one
   const auto right = [&](std::string (*judged)(const MatchResult&, const Language&)) {
     return std::to_string(std::count_if(report.traces.begin(), report.traces.end(), [&](const Replayed& trace) {
-      return judged(trace.match, language) == language.text("cell.correct");
+      return judged(trace.match, english) == english.text("cell.correct");
     }));
   };
   const auto clean = std::count_if(report.traces.begin(), report.traces.end(),

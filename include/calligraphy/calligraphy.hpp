@@ -25,10 +25,12 @@
 #include <calligraphy/devices/servo_statistics.hpp>
 #include <calligraphy/devices/servo_thread.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/judge/character_index.hpp>
 #include <calligraphy/judge/dtw_distance.hpp>
 #include <calligraphy/judge/pen_kinematics.hpp>
 #include <calligraphy/judge/pen_path.hpp>
 #include <calligraphy/judge/pen_trace.hpp>
+#include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/judge/writing_motion.hpp>
 #include <calligraphy/model/bezier.hpp>

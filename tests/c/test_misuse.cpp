@@ -244,7 +244,7 @@ TEST_CASE("a handle that is null, was freed or is of another kind is refused by 
       if (kind == one.kind) continue;
       CHECK(one.call(handle) == CALLIGRAPHY_INVALID_HANDLE);
       CHECK(error_says(std::string(one.kind) + " = 0x"));
-      CHECK(error_says(": a handle of a " + kind));
+      CHECK(error_says((kind == "index" ? ": a handle of an " : ": a handle of a ") + kind));
     }
     for (const auto& [kind, handle] : freed) {
       CHECK(one.call(handle) == CALLIGRAPHY_INVALID_HANDLE);

@@ -60,7 +60,7 @@ class Write(ProgramTest):
         self.assertEqual(printed.splitlines()[1].split()[:3], ["汉字", "方式", "[s]"])
         self.assertIn("n = 1 对书写：太少", printed)
         self.assertIn(">永, 仅视觉, Phantom Desktop<", (self.directory / "out/01-永-vision.svg").read_text())
-        self.assert_refused(2, [*arguments, "--language", "fr"], "--language", "fr")
+        self.assert_refused(2, [*arguments, "--language", "tlh"], "--language", "tlh")
 
         printed = self.run_program("write", "永", "--mode", "vision", "--repeat", "100", "--out", "many").stdout
         rows = json.loads((self.directory / "many/summary.json").read_text())["results"]
