@@ -263,12 +263,14 @@ function bind(module) {
    *   set, of which every form of the character is accepted; an index, of which other characters are remarked
    * @returns {Match}
    */
-  function match(page, character, paths, { tolerance = constants.TOLERANCE_NORMAL, forms = 0, others = 0 } = {}) {
+  function match(page, character, paths, options = {}) {
     const isPath = (/** @type {unknown} */ path) => path instanceof Float64Array
       || (Array.isArray(path) && path.every(Array.isArray));
     if (!(Array.isArray(paths) && paths.every(isPath))) {
       throw new TypeError("match: expected an array of pen-downs, each an array of points [x, y]");
     }
+    if (typeof options !== "object") throw new TypeError("match: expected options { tolerance, forms, others }");
+    const { tolerance = constants.TOLERANCE_NORMAL, forms = 0, others = 0 } = options;
     const coordinates = paths.map((path) => (Array.isArray(path) ? path.flatMap(([x, y]) => [x, y]) : [...path]));
     const points = coordinates.flat(), sizes = coordinates.map((path) => path.length / 2);
     const handle = library.match_strokes(page, character, points, sizes, paths.length, tolerance, forms, others);

@@ -197,6 +197,7 @@ test("strokes are matched", () => {
   const nothing = library.match_strokes(cross, 0, [], null, 0, constants.TOLERANCE_NORMAL, null, null);
   assert.equal(library.match_remark_count(nothing), 2);  // both strokes are missing
   refuses(() => library.match(cross, 3, [down]), constants.INVALID_VALUE, /character = 3/);
+  assert.throws(() => library.match(cross, 0, [down], constants.TOLERANCE_LENIENT), /expected options/);
   const set = library.set_built_in(), others = library.index_create(set);
   const two = [[[0.068, 0.07], [0.092, 0.07]], [[0.062, 0.045], [0.098, 0.045]]];
   const other = library.match(cross, 0, two, { tolerance: constants.TOLERANCE_STRICT, forms: set, others });
