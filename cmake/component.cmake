@@ -69,8 +69,8 @@ function(calligraphy_component name)
 endfunction()
 
 # calligraphy_embed_languages(variable): generates a source file that defines calligraphy::built_in::languages, from every
-# file of data/languages, declared in src/judge/remarks/built_in.hpp. Stops at a line that is no text and at a text that
-# a language lacks; it may leave out those for more than one.
+# file of data/languages, declared in src/judge/remarks/built_in.hpp. Stops at a line that is no text, or opens a
+# brace without closing it, and at a text that a language lacks; it may leave out those for more than one.
 function(calligraphy_embed_languages variable)
   set(source ${PROJECT_BINARY_DIR}/built_in_languages.cpp)
   set(content "#include <${PROJECT_SOURCE_DIR}/src/judge/remarks/built_in.hpp>\n\nconst calligraphy::built_in::LanguageFile ")
@@ -84,7 +84,7 @@ function(calligraphy_embed_languages variable)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
     file(READ ${file} text)
     string(REPLACE "\r\n" "\n" text "${text}")
-    string(REGEX REPLACE "\n(#[^\n]*|[a-z0-9_.]+ = [^\n]+)?" "" wrong "\n${text}")
+    string(REGEX REPLACE "\n(#[^\n]*|[a-z0-9_.]+ = ([^{} \n]|{[a-z_]+})([^{}\n]|{[a-z_]+})*)?" "" wrong "\n${text}")
     if(wrong)
       message(FATAL_ERROR "${file}: expected lines `key = text` and comments, got `${wrong}`")
     endif()

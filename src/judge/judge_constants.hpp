@@ -7,7 +7,7 @@ namespace calligraphy::detail {
 
 /// Unless a line names another source, a value was chosen with stroke_judge on the half of the characters that `--half
 /// choosing` takes (docs/practice.md, "How often the remarks are right"). All are doubles, so that one table of names
-/// covers them.
+/// covers them. Elsewhere are sizes of arrays, and the public tap_length and JudgeTolerances.
 struct JudgeConstants {
   // Reading: which pen-downs wrote which strokes.
   double pen_spacing = 0.005;        ///< least spacing of points kept, above a resting pen's noise (CHANGELOG.md) [em]
@@ -57,6 +57,7 @@ struct JudgeConstants {
   double saving_factor = 2.0;  ///< mean costs that another order must save, or factor by which it must cost less [1]
 
   // Remarks.
+  double joined_evidence = 0.5;  ///< evidence of a remark on joined strokes, for each of them [1]
   double sure_part = 0.2;  ///< share of the shorter part of a broken stroke above which the evidence exceeds 1 [1]
 
   // Other characters.

@@ -12,7 +12,7 @@
 #include "judge/judge_constants.hpp"
 #include "judge/pens/resemblance.hpp"
 #include "judge/pens/stroke_alignment.hpp"
-#include "judge/reading/unfinished_character.hpp"
+#include "judge/unfinished_character.hpp"
 #include "pen_down.hpp"
 #include "recorded_page.hpp"
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
@@ -215,6 +217,10 @@ TEST_CASE("of a line too many it is said by its number to leave it out, or how t
   drawn.insert(drawn.begin(), backwards(drawn[0]));
   CHECK(said(Kind::extra, ten, drawn) == Said("Your 1st line is stroke 1 (héng) backwards: start at the left.",
                                               "你写的第1笔是第1笔（横），但方向反了，从左边起笔。"));
+  CHECK(said({.kind = Kind::extra, .path = 2, .path_count = 1, .other_path = 0, .other_stroke = 0}, ten,
+             {.direction = WritingDirection::backwards}) ==
+        Said("Your 3rd line is stroke 1 (héng) backwards: start at the left.",
+             "你写的第3笔是第1笔（横），但方向反了，从左边起笔。"));
   CHECK(said(Kind::extra, eternal, in_order(eternal, {3, 0, 1, 2, 3, 4})) ==
         Said("Your 1st and 5th lines are both stroke 4 (piě): write it only once, in its turn.",
              "你写的第1笔和第5笔都是第4笔（撇），按笔顺写一次就够了。"));
@@ -325,9 +331,8 @@ TEST_CASE("each language has every text, and fills in nothing that English does 
     CAPTURE(language.name(), differ);
     CHECK(differ.empty());
     for (const std::string_view key : language.keys()) {
-      if (key.starts_with("ordinal.")) continue;
       const auto here = words_in(language.text(key));
-      auto there = words_in(english.text(key));
+      auto there = words_in(english.text(key.starts_with("ordinal.") ? "ordinal" : key));
       if (key == "stroke") there.insert("{name}");  // which is Chinese
       CAPTURE(key, language.text(key));
       CHECK((!language.text(key).empty() && std::includes(there.begin(), there.end(), here.begin(), here.end())));
@@ -359,5 +364,17 @@ TEST_CASE("every kind of remark, on one stroke or several, is said in full in ev
     }
   }
   CHECK_THROWS_WITH(remark_text({.stroke = 3, .stroke_count = 3}, eternal),
-                    "remark on stroke 6: the character has 5");
+                    "remark on 3 strokes from index 3: the character has 5");
+  constexpr int huge = std::numeric_limits<int>::max();
+  const std::vector<StrokeRemark> impossible = {{.kind = Kind::missing},
+                                                {.kind = Kind::shape, .stroke_count = 1},
+                                                {.kind = Kind::joined, .stroke = 1, .stroke_count = huge},
+                                                {.kind = Kind(99), .stroke = 0},
+                                                {.kind = Kind::extra},
+                                                {.kind = Kind::extra, .path = 0, .other_stroke = huge}};
+  for (const StrokeRemark& wrong : impossible) {
+    CHECK_THROWS_AS(remark_text(wrong, eternal), ValueError);
+    CHECK_THROWS_AS(remark_text(wrong, Character()), ValueError);
+  }
+  CHECK(remark_text({.kind = Kind::extra, .path = huge}, eternal).find("2147483648th line") != std::string::npos);
 }

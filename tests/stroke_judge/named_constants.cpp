@@ -59,6 +59,7 @@ constexpr auto named_constants = std::to_array<NamedConstant>({
     {"sure_length", &JudgeConstants::sure_length},
     {"min_saving", &JudgeConstants::min_saving},
     {"saving_factor", &JudgeConstants::saving_factor},
+    {"joined_evidence", &JudgeConstants::joined_evidence},
     {"sure_part", &JudgeConstants::sure_part},
     {"feature_deviation", &JudgeConstants::feature_deviation},
     {"min_deviation_share", &JudgeConstants::min_deviation_share},

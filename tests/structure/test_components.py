@@ -26,7 +26,8 @@ BELOW = {
 BACKENDS = ["phantom", "openhaptics"]  # folders beneath devices
 
 # The folders of a component, each with those of them whose headers it may include.
-FOLDERS = {"importers": {"read": [], "fit": [], "check": ["read", "fit"]}}
+FOLDERS = {"importers": {"read": [], "fit": [], "check": ["read", "fit"]},
+           "judge": {"pens": [], "reading": ["pens"], "remarks": ["pens", "reading"]}}
 
 # From devices, render may include only plain structs and the arithmetic of one estimator: no device, no loop.
 PLAIN_DEVICE_HEADERS = {"capabilities", "device_state", "velocity_estimator"}
@@ -58,6 +59,8 @@ def arrows(root):
                         found.append(f"{path}: {name} is not a public header")
                 continue
             for name in includes(path):
+                if name == "calligraphy/calligraphy.hpp" or re.search(r"(^|/)(\.{1,2}|)/", name):
+                    found.append(f"{path}: {name} hides which component it belongs to")
                 public = name.startswith("calligraphy/")
                 target = component_of(pathlib.PurePosixPath(name.removeprefix("calligraphy/")).parts)
                 if target is None:

@@ -42,7 +42,7 @@ std::size_t place_in(const Eigen::AlignedBox2d& box, double flat, const Point& p
 
 /// "1st", "2nd", "11th" for an index from 0, from as many of the last digits as the language has a text for.
 std::string ordinal(int index, const Language& language) {
-  const std::string number = std::to_string(index + 1);
+  const std::string number = std::to_string(index + 1LL);
   std::string text;
   for (std::size_t first = 0; text.empty() && first < number.size(); ++first) {
     text = language.text("ordinal." + number.substr(first), {{"number", number}});
@@ -55,8 +55,12 @@ class Sentence {
  public:
   Sentence(const StrokeRemark& remark, const Character& character, const Language& language)
       : remark_(remark), code_(character.code), strokes_(strokes(character)), language_(language) {
-    require_stroke(remark.stroke, std::max(remark.stroke_count, 1));
-    require_stroke(remark.other_stroke, 1);
+    using Kind = StrokeRemarkKind;
+    if (remark.kind < Kind::order || remark.kind > Kind::lookalike) throw ValueError("remark: there is no such kind");
+    const bool is_on_stroke = remark.kind < Kind::extra;
+    require_stroke(remark.stroke, remark.stroke_count, is_on_stroke ? 0 : -1);
+    require_stroke(remark.other_stroke, 1, -1);
+    if (remark.kind == Kind::extra && remark.path < 0) throw ValueError("remark on an extra pen-down: it names none");
   }
 
   std::string text() const {
@@ -80,10 +84,12 @@ class Sentence {
   }
 
  private:
-  void require_stroke(int first, int count) const {
-    if (first < 0 || static_cast<std::size_t>(first + count) <= strokes_.size()) return;
-    throw ValueError("remark on stroke " + std::to_string(first + count) + ": the character has " +
-                     std::to_string(strokes_.size()));
+  /// @throws ValueError unless the character has these strokes, the first of which is at least `least`
+  void require_stroke(int first, int count, int least) const {
+    const auto strokes = static_cast<int>(strokes_.size());
+    if (first >= least && (first < 0 || (first < strokes && count <= strokes - first))) return;
+    throw ValueError("remark on " + std::to_string(count) + " strokes from index " + std::to_string(first) +
+                     ": the character has " + std::to_string(strokes));
   }
 
   std::string order() const {
@@ -106,15 +112,15 @@ class Sentence {
     const bool is_exchange = remark_.kind == StrokeRemarkKind::order && remark_.other_path >= 0;
     const auto [first, other] = is_exchange ? std::minmax({remark_.stroke, remark_.other_stroke})
                                             : std::pair(remark_.stroke, remark_.other_stroke);
-    const auto [line, other_line] =
-        remark_.other_path >= 0 ? std::minmax({remark_.path, remark_.other_path}) : std::pair(remark_.path, -1);
+    const auto [line, other_line] = key == "extra.twice" ? std::minmax({remark_.path, remark_.other_path})
+                                                         : std::pair(remark_.path, remark_.other_path);
     const Ends ends = ends_of(remark_.kind == StrokeRemarkKind::extra ? remark_.other_stroke : remark_.stroke);
     const std::size_t start = remark_.kind == StrokeRemarkKind::missing ? place_in_character() : ends.start;
     return language_.text_for(remark_.stroke_count, key,
                               {{"strokes", all_strokes()},
                                {"first", stroke(first)},
                                {"first_number", std::to_string(first + 1)},
-                               {"last_number", std::to_string(remark_.stroke + remark_.stroke_count)},
+                               {"last_number", std::to_string(last() + 1)},
                                {"before_number", std::to_string(remark_.stroke)},
                                {"other", stroke(other)},
                                {"line", ordinal(line, language_)},
@@ -124,6 +130,8 @@ class Sentence {
                                {"written", encode_utf8(remark_.other_character)},
                                {"asked", encode_utf8(code_)}});
   }
+
+  int last() const { return remark_.stroke < 0 ? -1 : remark_.stroke + std::max(remark_.stroke_count, 1) - 1; }
 
   /// "2 (héng)"; empty for no stroke.
   std::string stroke(int index) const {
@@ -138,7 +146,7 @@ class Sentence {
     const std::string first = stroke(remark_.stroke);
     if (remark_.stroke_count < 2) return first;
     return language_.text(remark_.stroke_count == 2 ? "strokes.two" : "strokes.more",
-                          {{"first", first}, {"last", stroke(remark_.stroke + remark_.stroke_count - 1)}});
+                          {{"first", first}, {"last", stroke(last())}});
   }
 
   std::vector<Point> line_of(int index) const { return middle_line(strokes_[static_cast<std::size_t>(index)]); }

@@ -93,7 +93,7 @@ class Remarks {
     if (is_broken) {
       remark_on_stroke(StrokeRemarkKind::broken, std::max(1.0, shorter_share(path) / judge_constants.sure_part));
     }
-    if (drawn.stroke_count > 1) remark_on_stroke(StrokeRemarkKind::joined, 0.5 * drawn.stroke_count);
+    if (drawn.stroke_count > 1) remark_on_stroke(StrokeRemarkKind::joined, judge_constants.joined_evidence * drawn.stroke_count);
     if (drawn.direction == WritingDirection::backwards) {
       remark_on_stroke(StrokeRemarkKind::direction, drawn.evidence);
     } else if (drawn.direction != WritingDirection::unknown) {

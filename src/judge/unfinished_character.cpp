@@ -7,9 +7,9 @@
 
 #include "judge/judge_constants.hpp"
 #include "judge/pens/resemblance.hpp"
+#include "judge/reading/stroke_direction.hpp"
+#include "judge/reading/writing_order.hpp"
 #include "judge/remarks/remarks_on.hpp"
-#include "stroke_direction.hpp"
-#include "writing_order.hpp"
 
 namespace calligraphy {
 namespace {

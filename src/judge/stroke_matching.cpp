@@ -15,10 +15,10 @@
 #include "base/require.hpp"
 #include "judge/judge_constants.hpp"
 #include "judge/pens/pen_paths.hpp"
+#include "judge/reading/other_character.hpp"
+#include "judge/reading/stroke_direction.hpp"
+#include "judge/reading/writing_order.hpp"
 #include "judge/remarks/remarks_on.hpp"
-#include "other_character.hpp"
-#include "stroke_direction.hpp"
-#include "writing_order.hpp"
 
 namespace calligraphy {
 namespace {
