@@ -65,7 +65,11 @@ class Finish(ast.NodeTransformer):
         if node.name in self.enumerations:
             members = "\n".join(f"{name} = {value}" for name, value in self.enumerations[node.name].items())
             node.body = [*node.body[:1], *ast.parse(members).body]
-        fields = [ast.literal_eval(i.value) for i in node.body if ast.unparse(i).startswith("fields:")]
+        fields = []
+        for item in (i for i in node.body if ast.unparse(i).startswith("fields:")):
+            names = ast.literal_eval(item.value)
+            fields.append(names if isinstance(names, tuple) else (names,))  # pybind11-stubgen writes ("only") for ("only",)
+            item.value = ast.parse(repr(fields[-1]), mode="eval").body
         if fields:
             types = {f.name: ast.unparse(f.args.args[1].annotation) for f in functions if len(f.args.args) == 2}
             words = ", ".join(f"{name}: {types[name]} = ..." for name in fields[0])
