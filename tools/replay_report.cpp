@@ -35,17 +35,26 @@ std::string with_count(int count, const std::string& what, const Language& langu
   return language.text("cell." + what, {{"count", std::to_string(count)}});
 }
 
+bool is_order_right(const MatchResult& match) {
+  return !is_unclear(match) && match.count(StrokeRemarkKind::order) == 0;
+}
+
+bool is_direction_right(const MatchResult& match) {
+  return !is_unclear(match) && match.count(StrokeRemarkKind::direction) + match.count(StrokeRemarkKind::shape) == 0;
+}
+
 std::string order_of(const MatchResult& match, const Language& language) {
   if (is_unclear(match)) return language.text("cell.unclear");
-  const int wrong = match.count(StrokeRemarkKind::order);
-  return wrong == 0 ? language.text("cell.correct") : with_count(wrong, "order", language);
+  if (is_order_right(match)) return language.text("cell.correct");
+  return with_count(match.count(StrokeRemarkKind::order), "order", language);
 }
 
 std::string direction_of(const MatchResult& match, const Language& language) {
   if (is_unclear(match)) return language.text("cell.unclear");
-  const int wrong = match.count(StrokeRemarkKind::direction), unclear = match.count(StrokeRemarkKind::shape);
+  if (is_direction_right(match)) return language.text("cell.correct");
+  const int wrong = match.count(StrokeRemarkKind::direction);
   if (wrong > 0) return with_count(wrong, "direction", language);
-  return unclear == 0 ? language.text("cell.correct") : with_count(unclear, "direction.unclear", language);
+  return with_count(match.count(StrokeRemarkKind::shape), "direction.unclear", language);
 }
 
 /// "1 joined, 2 missing"
@@ -181,19 +190,17 @@ std::string table(const ReplayReport& report, const Language& language) {
   const std::string forms = form_lines(report, language);
   if (!forms.empty()) text += "\n" + forms;
   if (!report.recognised.empty()) text += "\n" + recognised_lines(report, language);
-  const Language english;  // in which no other cell has the text of a correct one
-  const auto right = [&](std::string (*judged)(const MatchResult&, const Language&)) {
-    return std::to_string(std::count_if(report.traces.begin(), report.traces.end(), [&](const Replayed& trace) {
-      return judged(trace.match, english) == english.text("cell.correct");
-    }));
+  const auto count = [&report](bool (*is_right)(const MatchResult&)) {
+    return std::to_string(std::count_if(report.traces.begin(), report.traces.end(),
+                                        [is_right](const Replayed& trace) { return is_right(trace.match); }));
   };
   const auto clean = std::count_if(report.traces.begin(), report.traces.end(),
                                    [](const Replayed& trace) { return trace.match.remarks.empty(); });
   text += "\n" +
           language.text("replay.totals", {{"clean", std::to_string(clean)},
                                           {"all", std::to_string(report.traces.size())},
-                                          {"order", right(order_of)},
-                                          {"direction", right(direction_of)}}) +
+                                          {"order", count(is_order_right)},
+                                          {"direction", count(is_direction_right)}}) +
           "\n";
   if (!report.without_template.empty()) {
     std::string characters;

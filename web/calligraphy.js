@@ -316,11 +316,12 @@ function bind(module) {
       const drawn = readAll("drawn_stroke", count, (i, each) => library.match_drawn(handle, i, each));
       const remarks = readAll("remark", library.match_remark_count(handle),
                               (i, each) => library.match_remark(handle, i, each));
+      const codes = languages();
       return {
         drawn,
         accepted: library.match_accepted(handle),
         remarks: remarks.map((remark, i) => {
-          const texts = new Map(languages().map((code) => [code, library.match_remark_text(handle, i, code)]));
+          const texts = new Map(codes.map((code) => [code, library.match_remark_text(handle, i, code)]));
           const text = (language = "en") => texts.get(language) ?? refuseLanguage(language, texts);
           return { ...remark, text };
         }),

@@ -687,8 +687,8 @@ typedef struct calligraphy_match calligraphy_match;
 /// one pen-down after the other [m, page]; `path_sizes`: the number of points of each of the `path_count` pen-downs. An
 /// error of position or size is not a mistake. `tolerance`: a calligraphy_tolerance, which decides how sure a remark
 /// must be. `forms`: accept every order and form that this set has of the character, CALLIGRAPHY_NOT_FOUND if it has
-/// none; null: only that of the page.
-/// `others`: also remark that another character of this index was written; null: do not.
+/// none; null: only that of the page. `others`: also remark that another character of this index was written; null: do
+/// not.
 CALLIGRAPHY_API calligraphy_status calligraphy_match_strokes(const calligraphy_page* page, int32_t character,
                                                              const double* points, const uint32_t* path_sizes,
                                                              size_t path_count, int32_t tolerance,
