@@ -6,6 +6,7 @@
 #include <calligraphy/base/error.hpp>
 
 #include "base/require.hpp"
+#include "base/stylus_fields.hpp"
 
 namespace calligraphy {
 namespace {
@@ -45,7 +46,8 @@ PointerDevice::PointerDevice(const Capabilities& device, const GripImpedance& gr
   intention_.position = options_.paper * meant_;
 }
 
-void PointerDevice::move(double x, double y, double pressure, std::uint32_t buttons) noexcept {
+void PointerDevice::move(double x, double y, double pressure, std::uint32_t buttons,
+                         const StylusState& stylus) noexcept {
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(pressure)) return;
   const double height = pressure > 0.0 ? -std::min(pressure, 1.0) * options_.press_depth : options_.hover_height;
   const Eigen::Vector3d& workspace = device_.capabilities().workspace;  // positions are clamped to twice its size
@@ -53,6 +55,9 @@ void PointerDevice::move(double x, double y, double pressure, std::uint32_t butt
   place_[0].store(std::clamp(x, -workspace.x(), workspace.x()), std::memory_order_release);
   place_[1].store(std::clamp(y, -workspace.y(), workspace.y()), std::memory_order_release);
   place_[2].store(height, std::memory_order_release);
+  for (std::size_t i = 0; i < stylus_.size(); ++i) {
+    stylus_[i].store(stylus.*stylus_fields[i].member, std::memory_order_release);
+  }
   buttons_.store(buttons, std::memory_order_release);
   sequence_.fetch_add(1, std::memory_order_release);
 }
@@ -72,10 +77,15 @@ void PointerDevice::take_target() noexcept {
     if (before % 2 == 1) continue;
     const Eigen::Vector3d place(place_[0].load(std::memory_order_acquire), place_[1].load(std::memory_order_acquire),
                                 place_[2].load(std::memory_order_acquire));
+    StylusState stylus;
+    for (std::size_t i = 0; i < stylus_.size(); ++i) {
+      stylus.*stylus_fields[i].member = stylus_[i].load(std::memory_order_acquire);
+    }
     const std::uint32_t buttons = buttons_.load(std::memory_order_acquire);
     if (sequence_.load(std::memory_order_relaxed) != before) continue;
     taken_ = before;
     target_ = place;
+    intention_.stylus = stylus;
     device_.set_buttons(buttons);
     return;
   }

@@ -179,6 +179,7 @@ DeviceState SimulatedDevice::sample(double elapsed) noexcept {
   state.velocity_estimated = device_.velocity == VelocitySource::estimated;
   state.velocity = state.velocity_estimated ? estimator_.update(state.position, elapsed) : velocity_;
   state.buttons = buttons_;
+  state.stylus = intention_.stylus;
   return state;
 }
 

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+
+#include <calligraphy/base/stylus_state.hpp>
 
 namespace calligraphy {
 
@@ -15,6 +18,16 @@ constexpr double approach_speed = 0.12;   // upper bound of the mean speed in th
 inline double minimum_jerk(double share) {
   const double t = std::clamp(share, 0.0, 1.0);
   return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
+}
+
+/// What the pen of a simulated hand senses that means to be at this height above the paper [m], in the steps of a
+/// tablet: half its pressure while writing, its height in the air.
+inline StylusState sensed_at(double height) {
+  constexpr double pressures = 8192.0, heights = 1e4;  // steps in its full range, and in a metre
+  StylusState stylus;
+  stylus.pressure = std::round(std::clamp(-height / (2.0 * pressed_depth), 0.0, 1.0) * pressures) / pressures;
+  stylus.height = std::round(std::max(height, 0.0) * heights) / heights;
+  return stylus;
 }
 
 }  // namespace calligraphy

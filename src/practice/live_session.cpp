@@ -27,6 +27,7 @@ constexpr double min_timeout = 3.0;
 /// One tick for the calling thread: what the recording keeps, and what only a display shows.
 struct LiveTick {
   RecordedSample sample;
+  DeviceState input;
   WritingHint hint = WritingHint::none;
   Point to_start = Point::Zero();
 };
@@ -63,7 +64,7 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
       in_front.store(true, std::memory_order_relaxed);
     }
     const HapticTick& tick = session.update(state);
-    queue.push({session.sample(), tick.hint, tick.to_start});
+    queue.push({session.sample(), session.input(), tick.hint, tick.to_start});
     if (session.has_failed()) has_failed.store(true, std::memory_order_relaxed);
     return Eigen::Vector3d(session.force());
   };
@@ -75,7 +76,10 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
   LiveView view;
   LiveTick newest;
   const auto take_over = [&] {
-    while (queue.pop(newest)) result.recording.samples.push_back(newest.sample);
+    while (queue.pop(newest)) {
+      result.recording.samples.push_back(newest.sample);
+      result.recording.inputs.push_back(newest.input);
+    }
     view.newest = newest.sample;
     view.hint = newest.hint;
     view.to_start = newest.to_start;

@@ -17,7 +17,7 @@ constexpr double resting_height = 0.02;
 constexpr std::size_t progress_interval = 256;
 
 Intention to_device(const Intention& page, const MotionMapping& mapping) {
-  return {mapping.to_device(page.position), mapping.rotation.transpose() * page.velocity / mapping.scale};
+  return {mapping.to_device(page.position), mapping.rotation.transpose() * page.velocity / mapping.scale, page.stylus};
 }
 
 Eigen::Vector3d resting_point(const PracticePage& page) {
@@ -31,6 +31,7 @@ const HapticTick& record_tick(const PracticePage& page, HapticDevice& device, Se
   if (session.has_failed()) std::rethrow_exception(session.error());
   device.write(session.force());
   recording.samples.push_back(session.sample());
+  recording.inputs.push_back(session.input());
   if (options.progress && recording.samples.size() % progress_interval == 0) {
     options.progress(share_written(page, tick.character, tick.stroke));
   }
@@ -90,9 +91,9 @@ Recording follow_trace(const PracticePage& page, const PenTrace& trace, const Se
   double time = 0.0;
   return run_session(page, options, [&](const HapticTick&, double seconds) -> std::optional<Intention> {
     if (time > hand.duration()) return std::nullopt;
-    const Eigen::Vector3d from = hand.at(time);
+    const TraceHand::Pen from = hand.at(time);
     time += seconds;
-    return Intention{from, (hand.at(time) - from) / seconds};
+    return Intention{from.point, (hand.at(time).point - from.point) / seconds, from.stylus};
   });
 }
 

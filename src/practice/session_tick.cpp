@@ -1,6 +1,7 @@
 #include "session_tick.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <calligraphy/base/error.hpp>
 
@@ -12,7 +13,7 @@ namespace calligraphy {
 SessionTick::SessionTick(HapticRenderer& renderer, const Capabilities& device, FeedbackMode mode, const ForceLaw& law,
                          bool measure)
     : renderer_(renderer),
-      peak_force_(device.peak_force),
+      device_(device),
       mode_(mode),
       law_(law),
       velocity_(device.velocity_cutoff),
@@ -20,6 +21,8 @@ SessionTick::SessionTick(HapticRenderer& renderer, const Capabilities& device, F
       measure_(measure) {}
 
 const HapticTick& SessionTick::update(const DeviceState& state) noexcept {
+  input_ = state;
+  if (state.force == output_force(device_, force_)) input_.force.setConstant(std::numeric_limits<double>::quiet_NaN());
   const double before = measure_ ? monotonic_seconds() : 0.0;
   const HapticTick& tick = renderer_.update(state);
   sample_ = {tick.time,  tick.device_point, tick.pen_tip,   tick.page_force, tick.state,
@@ -52,7 +55,7 @@ void SessionTick::apply_law(DeviceState state) noexcept {
     force_ = Eigen::Vector3d::Zero();
     return;
   }
-  force_ = shortened(force_, peak_force_);
+  force_ = shortened(force_, device_.peak_force);
   sample_.force = renderer_.mapping().force_to_page(force_);
 }
 

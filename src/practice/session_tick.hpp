@@ -21,6 +21,8 @@ class SessionTick {
 
   const Eigen::Vector3d& force() const noexcept { return force_; }
   const RecordedSample& sample() const noexcept { return sample_; }
+  /// What came in, as Recording::inputs has it.
+  const DeviceState& input() const noexcept { return input_; }
   /// Whether the force law or the guidance law has thrown, or its force was not finite: TickStatus::bad_law.
   bool has_failed() const noexcept { return has_failed_; }
   /// What the law threw first, or a ValueError that names the law; null unless has_failed().
@@ -30,7 +32,7 @@ class SessionTick {
   void apply_law(DeviceState state) noexcept;
 
   HapticRenderer& renderer_;
-  double peak_force_;  ///< [N]
+  Capabilities device_;
   FeedbackMode mode_;
   ForceLaw law_;
   VelocityEstimator velocity_;
@@ -40,6 +42,7 @@ class SessionTick {
   std::exception_ptr error_;  ///< what the force law threw
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
   RecordedSample sample_;
+  DeviceState input_;
 };
 
 /// An empty recording of a page written at the rate of a renderer.

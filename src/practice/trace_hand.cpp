@@ -36,7 +36,7 @@ void require_valid(const PenTrace& trace) {
 }  // namespace
 
 TraceHand::TraceHand(const PenTrace& trace, const PlacedCharacter& placed, const Eigen::Vector3d& start)
-    : knots_{{0.0, start}} {
+    : knots_{{0.0, start, sensed_at(start.z())}} {
   require_valid(trace);
   const BoxMap map = fit_box(pen_paths(trace), placed.character);
   double last_time = 0.0;
@@ -56,14 +56,14 @@ TraceHand::TraceHand(const PenTrace& trace, const PlacedCharacter& placed, const
   }
 }
 
-Eigen::Vector3d TraceHand::at(double time) const noexcept {
+TraceHand::Pen TraceHand::at(double time) const noexcept {
   const auto after = std::upper_bound(knots_.begin(), knots_.end(), time,
                                       [](double value, const Knot& knot) { return value < knot.time; });
-  if (after == knots_.begin()) return knots_.front().point;
-  if (after == knots_.end()) return knots_.back().point;
+  if (after == knots_.begin()) return {knots_.front().point, knots_.front().stylus};
+  if (after == knots_.end()) return {knots_.back().point, knots_.back().stylus};
   const Knot& before = *(after - 1);
   const double share = (time - before.time) / (after->time - before.time);
-  return before.point + share * (after->point - before.point);
+  return {before.point + share * (after->point - before.point), before.stylus};
 }
 
 void TraceHand::move(const Eigen::Vector3d& to, double seconds) {
@@ -71,7 +71,8 @@ void TraceHand::move(const Eigen::Vector3d& to, double seconds) {
   const int steps = std::max(1, static_cast<int>(std::ceil(seconds / air_step)));
   for (int i = 1; i <= steps; ++i) {
     const double share = static_cast<double>(i) / steps;
-    knots_.push_back({from.time + share * seconds, from.point + minimum_jerk(share) * (to - from.point)});
+    const Eigen::Vector3d point = from.point + minimum_jerk(share) * (to - from.point);
+    knots_.push_back({from.time + share * seconds, point, sensed_at(point.z())});
   }
 }
 
@@ -82,9 +83,9 @@ void TraceHand::write(const PenStroke& stroke, const BoxMap& map, const Placemen
     point << placement.to_page(map(timed.point)), -pressed_depth;
     // Points with the same time lie on the way from one sample to the next; the last of them is where the pen was.
     if (timed.time + shift <= knots_.back().time) {
-      knots_.back().point = point;
+      knots_.back() = {knots_.back().time, point, timed.stylus};
     } else {
-      knots_.push_back({timed.time + shift, point});
+      knots_.push_back({timed.time + shift, point, timed.stylus});
     }
   }
 }

@@ -15,19 +15,26 @@ namespace calligraphy {
 /// writing onto that of the character. The hand has no visual feedback: it feels the guidance but does not adapt to it.
 class TraceHand {
  public:
+  /// Where the pen is meant to be, and what it senses: on the paper, what the person's did.
+  struct Pen {
+    Eigen::Vector3d point;  ///< [m, page]
+    StylusState stylus = {};
+  };
+
   /// `start`: position of the pen at time 0 [m, page].
   /// @throws ValueError when the trace has no point or one that is not finite, or its times decrease
   TraceHand(const PenTrace& trace, const PlacedCharacter& placed, const Eigen::Vector3d& start);
 
   /// Time until the pen rests above the end of the last stroke [s].
   double duration() const noexcept { return knots_.back().time; }
-  /// The intended position [m, page] at a time since the start [s].
-  Eigen::Vector3d at(double time) const noexcept;
+  /// The pen at a time since the start [s].
+  Pen at(double time) const noexcept;
 
  private:
   struct Knot {
     double time;
     Eigen::Vector3d point;
+    StylusState stylus = {};  ///< until the next knot
   };
 
   void move(const Eigen::Vector3d& to, double seconds);

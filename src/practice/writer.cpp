@@ -94,14 +94,14 @@ SimulatedWriter::SimulatedWriter(const PracticePage& page, const WriterSkill& sk
 }
 
 Intention SimulatedWriter::update(const VisualFeedback& sight, double seconds) {
-  if (!(seconds > 0.0) || done()) return {now_, Eigen::Vector3d::Zero()};
+  if (!(seconds > 0.0) || done()) return {now_, Eigen::Vector3d::Zero(), sensed_at(now_.z())};
   see(sight);
   time_ += seconds;
   phase_time_ += seconds;
   think(seconds);
   const Eigen::Vector3d before = now_;
   now_ = target();
-  return {before, (now_ - before) / seconds};
+  return {before, (now_ - before) / seconds, sensed_at(before.z())};
 }
 
 /// What is shown now is perceived only after the visual delay.

@@ -144,6 +144,20 @@ TEST_CASE("the paper has the position and orientation given in the options", "[p
   CHECK(device.read().position.isApprox(Eigen::Vector3d(0.015, 0.0175, 0.024), 1e-6));
 }
 
+TEST_CASE("what the pen of a tablet senses is passed on, and does not move the hand", "[pointer]") {
+  PointerDevice plain(device_profile("ideal")), sensing(device_profile("ideal"));
+  const StylusState stylus = {0.25, 0.5, 1.0, -2.0, 3.0, 0.004};
+  plain.move(0.01, 0.02, 0.5);
+  sensing.move(0.01, 0.02, 0.5, eraser_button, stylus);
+  for (int i = 0; i < 50; ++i) {
+    const DeviceState state = sensing.read();
+    CHECK(state.position == plain.read().position);
+    if (i == 0) continue;  // the sample from before the pointer was taken
+    CHECK(state.stylus == stylus);
+    CHECK(state.buttons == eraser_button);
+  }
+}
+
 TEST_CASE("a position or pressure that is not finite is ignored", "[pointer]") {
   const double bad = GENERATE(as<double>{}, not_a_number, infinity, -infinity);
   PointerDevice device(device_profile("ideal"));

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <clocale>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <locale>
@@ -24,6 +25,19 @@ const std::string good =
     "S 3 20 60 0 100.5 58 125 180 60 250\n"
     "\n"
     "S 2 10 160 700 190 160 700.25\r\n"
+    "C 一 4E00 made-up 1000 1\n"
+    "S 1 500 500 1\n";
+
+/// Every kind of line of version 2, and a character without any.
+const std::string with_senses =
+    "# made up for this test\n"
+    "V 2\n"
+    "C 十 5341 made-up 1000 2 2\n"
+    "F pressure force altitude azimuth twist height buttons\n"
+    "A 1 90 500 0 0 - 1.25 -2.5 0.5 0.0125 0\n"
+    "S 2 100 500 10 0.12890625 0.6 1.25 -2.5 0.5 - 33 900 480 330 - - - - - - -\n"
+    "S 1 500 80 900 1 0 0 0 0 0 1\n"
+    "A 2 500 80 901 - - - - - 0.005 0 490 90 950 - - - - - 0.008 0\n"
     "C 一 4E00 made-up 1000 1\n"
     "S 1 500 500 1\n";
 
@@ -77,6 +91,39 @@ TEST_CASE("reading and writing a pen trace reproduces the text", "[judge]") {
         "C 二 4E8C made-up 200 2\nS 3 20 60 0 100.5 58 125 180 60 250\nS 2 10 160 700 190 160 700.25\n"
         "C 一 4E00 made-up 1000 1\nS 1 500 500 1\n");
   CHECK(written(read(text)) == text.substr(text.find("C ")));
+}
+
+TEST_CASE("what a pen senses besides its place comes back to the last bit", "[judge]") {
+  const std::vector<PenTrace> traces = read(with_senses);
+  const TimedPoint& first = traces[0].strokes[0][0];
+  CHECK(first.stylus == StylusState{0.12890625, 0.6, 1.25, -2.5, 0.5, std::nan("")});
+  CHECK(first.buttons == static_cast<int>(tip_button | eraser_button));
+  CHECK(traces[0].strokes[0][1].stylus == StylusState());
+  CHECK(traces[0].strokes[0][1].buttons == -1);
+  REQUIRE(traces[0].air.size() == 3);
+  CHECK(traces[0].air[1].empty());
+  CHECK(traces[0].air[2][1].stylus.height == 0.008);
+  CHECK(written(traces, "made up for this test") == with_senses);
+  CHECK(traces[1].air.empty());
+}
+
+TEST_CASE("tilts in degrees, as browsers have them, become altitude and azimuth", "[judge]") {
+  // W3C Pointer Events Level 3, sec. 10.3: azimuthAngle 0 is to the right, pi / 2 towards the user, who is below.
+  const auto sensed = [](const std::string& tilts) {
+    const std::string head = "V 2\nC 一 4E00 made-up 1000 1\nF tilt_x tilt_y\n";
+    return read(head + "S 1 500 500 1 " + tilts + "\n")[0].strokes[0][0].stylus;
+  };
+  constexpr double right = 1.5707963267948966;
+  CHECK(sensed("0 0").altitude == Approx(right));
+  CHECK(sensed("30 0").altitude == Approx(right * 60.0 / 90.0));
+  CHECK(sensed("30 0").azimuth == 0.0);
+  CHECK(sensed("-30 0").azimuth == Approx(2.0 * right));
+  CHECK(sensed("0 30").azimuth == Approx(-right));
+  CHECK(sensed("45 45").azimuth == Approx(-0.5 * right));
+  CHECK(sensed("45 45").altitude == Approx(std::atan(1.0 / std::sqrt(2.0))));
+  CHECK(sensed("90 0").altitude == Approx(0.0).margin(1e-12));
+  CHECK(std::isnan(sensed("- 0").altitude));
+  CHECK(std::isnan(sensed("- 0").azimuth));
 }
 
 TEST_CASE("nobody is at the next stroke so soon", "[judge][corpus]") {
@@ -148,6 +195,22 @@ TEST_CASE("an invalid pen trace is rejected naming the line and the value", "[ju
       {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\nC 一 4E00 made-up 1000 1\nS 1 0 0 0\n", "pens.txt:3:", "1 of 2 strokes"},
       {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\nS 1 0 0 4\n", "pens.txt:3:", "5 to 4"},
       {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\n", "pens.txt:3:", "1 of 2 strokes"},
+      {"V 3\n", "pens.txt:1:", "'V'"},
+      {line("A 1 0 0 0"), "pens.txt:2:", "'A'"},
+      {line("F pressure"), "pens.txt:2:", "'F'"},
+      {"V 2\n" + line("F pressur"), "pens.txt:3:", "'pressur'"},
+      {"V 2\n" + line("F twist twist"), "pens.txt:3:", "twice"},
+      {"V 2\n" + line("F tilt_x"), "pens.txt:3:", "together"},
+      {"V 2\n" + line("F tilt_x tilt_y azimuth"), "pens.txt:3:", "altitude and azimuth"},
+      {"V 2\n" + line("S 1 0 0 0\nF twist"), "pens.txt:4:", "once"},
+      {"V 2\n" + line("F pressure\nS 1 0 0 0"), "pens.txt:4:", "pressure"},
+      {"V 2\n" + line("F pressure\nS 1 0 0 0 1.5"), "pens.txt:4:", "'1.5'"},
+      {"V 2\n" + line("F buttons\nS 1 0 0 0 0.5"), "pens.txt:4:", "integer"},
+      {"V 2\n" + line("F pressure\nS 9 0 0 0 1"), "pens.txt:4:", "too short"},
+      {"V 2\n" + line("A 1 0 0 0"), "pens.txt:3:", "too many"},
+      {"V 2\nC 一 4E00 made-up 1000 1 3\n", "pens.txt:2:", "'3'"},
+      {"V 2\nC 一 4E00 made-up 1000 1 2\nA 1 0 0 0\nA 1 0 0 0\n", "pens.txt:4:", "twice in a row"},
+      {"V 2\nC 一 4E00 made-up 1000 1 1\nS 1 0 0 0\n", "pens.txt:4:", "0 of 1 times"},
   };
   for (const Case& each : cases) {
     CAPTURE(each.text);
@@ -167,11 +230,10 @@ TEST_CASE("a pen trace truncated anywhere but at the end of a character is rejec
 }
 
 TEST_CASE("a file with a random byte is either read or rejected with FormatError", "[judge]") {
-  std::string text = good;
   std::uint32_t state = 1;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 6000; ++i) {
     state = state * 1664525u + 1013904223u;
-    std::string broken = text;
+    std::string broken = i % 2 == 0 ? good : with_senses;
     broken[(state >> 8) % broken.size()] = static_cast<char>(state >> 24);
     try {
       for (const PenTrace& trace : read(broken)) {
@@ -221,6 +283,10 @@ TEST_CASE("a pen trace that could not be read back is not written", "[judge]") {
   SECTION("not finite") { trace.strokes[0][0].point.x() = std::nan(""), named = "nan"; }
   SECTION("space in the set") { trace.set = "a b", named = "'a b'"; }
   SECTION("no character") { trace.character = 0xD800, named = "D800"; }
+  SECTION("pressure") { trace.strokes[0][0].stylus.pressure = 1.5, named = "pressure of 1.5"; }
+  SECTION("infinite tilt") { trace.strokes[0][0].stylus.azimuth = INFINITY, named = "azimuth of inf"; }
+  SECTION("buttons") { trace.strokes[0][0].buttons = -2, named = "buttons -2"; }
+  SECTION("air") { trace.air.resize(1), named = "in the air 1 times"; }
   SECTION("no em") { trace.em = 0.0, named = "em"; }
   try {
     written({fine, trace});

@@ -58,10 +58,10 @@ TEST_CASE("a hand on a trace is at the pen's recorded position at the recorded t
   const PlacedCharacter& placed = page.characters.front();
   const PenTrace trace = trace_of(U'十', copy_of(placed.character));
   const TraceHand hand(trace, placed, start);
-  CHECK(hand.at(0.0) == start);
-  CHECK(hand.at(-1.0) == start);
+  CHECK(hand.at(0.0).point == start);
+  CHECK(hand.at(-1.0).point == start);
   const BoxMap map = fit_box(pen_paths(trace), placed.character);
-  const auto pressed = [&hand](double time) { return std::abs(hand.at(time).z() + 0.0025) < 1e-12; };
+  const auto pressed = [&hand](double time) { return std::abs(hand.at(time).point.z() + 0.0025) < 1e-12; };
   constexpr double step = 1e-4;
   double time = 0.0;
   for (const PenStroke& stroke : trace.strokes) {
@@ -69,20 +69,46 @@ TEST_CASE("a hand on a trace is at the pen's recorded position at the recorded t
     const double shift = time - stroke.front().time;  // accurate to a step, in which the pen moves 0.002 mm
     for (const TimedPoint& timed : stroke) {
       const Point expected = placed.placement.to_page(map(timed.point));
-      CHECK((hand.at(timed.time + shift).head<2>() - expected).norm() < 5e-6);
+      CHECK((hand.at(timed.time + shift).point.head<2>() - expected).norm() < 5e-6);
     }
     while (pressed(time)) time += step;
     CHECK(time - shift == Approx(stroke.back().time).margin(2.0 * step));
   }
-  CHECK(hand.at(hand.duration()).z() == Approx(0.008));
-  CHECK(hand.at(hand.duration() + 10.0) == hand.at(hand.duration()));
+  CHECK(hand.at(hand.duration()).point.z() == Approx(0.008));
+  CHECK(hand.at(hand.duration() + 10.0).point == hand.at(hand.duration()).point);
+}
+
+TEST_CASE("a recording keeps what the pen sensed: a person's on the paper, a simulated writer's everywhere", "[practice]") {
+  const PracticePage page = page_of("十");
+  PenTrace trace = trace_of(U'十', copy_of(page.characters.front().character));
+  const StylusState leaning = {0.3, not_a_number, 1.0, -2.0, not_a_number, 0.0};
+  for (PenStroke& stroke : trace.strokes) {
+    for (TimedPoint& point : stroke) point.stylus = leaning;
+  }
+  const SessionOptions options = session({}, FeedbackMode::force);
+  const Recording followed = follow_trace(page, trace, options), written = write_page(page, options);
+  for (const Recording* recording : {&followed, &written}) {
+    REQUIRE(recording->inputs.size() == recording->samples.size());
+    for (std::size_t i = 1; i < recording->inputs.size(); ++i) {  // 0: before the hand has moved
+      const DeviceState& input = recording->inputs[i];
+      CHECK(upright_page(page.width, page.height).to_page(input.position) == recording->samples[i].device_point);
+      const bool is_person = recording == &followed && input.stylus == leaning;
+      const bool is_pressed = input.stylus.pressure > 0.0 && input.stylus.height == 0.0;
+      const bool is_in_air = input.stylus.pressure == 0.0 && input.stylus.height >= 0.0;
+      CHECK(is_person + is_pressed + is_in_air == 1 + (is_person && is_pressed));
+    }
+  }
+  const auto is = [&](const DeviceState& input) { return input.stylus == leaning; };
+  CHECK(std::count_if(followed.inputs.begin(), followed.inputs.end(), is) > 500);
+  const auto half = [](const DeviceState& input) { return input.stylus.pressure == 0.5; };  // while writing
+  CHECK(std::count_if(written.inputs.begin(), written.inputs.end(), half) > 500);
 }
 
 TEST_CASE("a hand on a trace never jumps", "[practice]") {
   const PracticePage page = page_of("永");
   const TraceHand hand(trace_of(U'永', copy_of(page.characters.front().character)), page.characters.front(), start);
   for (double time = 0.0; time < hand.duration(); time += 1e-3) {
-    CHECK((hand.at(time + 1e-3) - hand.at(time)).norm() < 0.6e-3);  // 0.6 m/s
+    CHECK((hand.at(time + 1e-3).point - hand.at(time).point).norm() < 0.6e-3);  // 0.6 m/s
   }
 }
 

@@ -13,7 +13,7 @@ struct DeviceAxes {
   bool x = true;           ///< translation along this device axis
   bool y = true;           ///< translation along this device axis
   bool z = true;           ///< translation along this device axis
-  bool rotations = false;  ///< pen orientation, sensed as DeviceState::orientation
+  bool rotations = false;  ///< pen orientation, sensed as altitude, azimuth and twist of DeviceState::stylus
 
   /// Whether x, y and z are all present, which the renderer and the simulation require.
   bool all_translations() const noexcept { return x && y && z; }

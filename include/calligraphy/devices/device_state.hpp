@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include <calligraphy/base/stylus_state.hpp>
+
 namespace calligraphy {
 
 /// Validity of a sample.
@@ -59,16 +61,6 @@ inline constexpr std::size_t device_fault_count = static_cast<std::size_t>(Devic
 /// Display text: "unplugged", "short frame".
 const char* to_string(DeviceFault fault) noexcept;
 
-/// Orientation of the pen in device axes: the direction from its tip to its other end is
-/// (sin tilt cos azimuth, sin tilt sin azimuth, cos tilt). NaN if the device does not measure it.
-///
-/// For W3C Pointer Events (Level 3) on a screen in the x-y plane that faces z: tilt = pi / 2 - altitudeAngle,
-/// azimuth = -azimuthAngle, since the y axis of a screen points down.
-struct PenOrientation {
-  double tilt = std::numeric_limits<double>::quiet_NaN();     ///< from the z axis, 0 to pi [rad]
-  double azimuth = std::numeric_limits<double>::quiet_NaN();  ///< from the x axis towards the y axis, -pi to pi [rad]
-};
-
 /// One sample of a device.
 struct DeviceState {
   double time = 0.0;                                   ///< since the device was opened [s]
@@ -86,7 +78,7 @@ struct DeviceState {
   std::uint32_t buttons = 0;               ///< one bit per button
   DeviceStatus status = DeviceStatus::ok;  ///< whether the sample is fresh and valid
   DeviceFault fault = DeviceFault::none;   ///< the cause of a status other than ok, if known
-  PenOrientation orientation;              ///< of the pen; NaN if the device does not sense rotations
+  StylusState stylus = {};                 ///< what its pen senses besides, in device axes
 };
 
 /// Impedance of the grip about the intended position, equal along all axes. Typical grips: soft (0.05, 1, 100), normal

@@ -36,9 +36,10 @@ class PointerDevice final : public HapticDevice {
                          const PointerOptions& options = {});
 
   /// Sets the position of the pointer on the paper [m] and its pressure, from 0 (not pressed) to 1; use 0.5 for a mouse
-  /// button. Wait-free; call from any thread, one at a time. Positions and pressures that are not finite are ignored.
+  /// button. What the pen of a tablet senses becomes DeviceState::stylus as it is; its pressure there does not move the
+  /// hand. Wait-free; call from any thread, one at a time. Positions and pressures that are not finite are ignored.
   /// Before the first call the pen hovers over the origin of the paper.
-  void move(double x, double y, double pressure, std::uint32_t buttons = 0) noexcept;
+  void move(double x, double y, double pressure, std::uint32_t buttons = 0, const StylusState& stylus = {}) noexcept;
 
   const Capabilities& capabilities() const noexcept override { return device_.capabilities(); }
   /// Advances virtual time by one period, then returns the newest sample.
@@ -60,7 +61,8 @@ class PointerDevice final : public HapticDevice {
 
   // Sequence lock: the number is odd while the values change.
   std::atomic<std::uint32_t> sequence_ = 0;
-  std::array<std::atomic<double>, 3> place_ = {};  ///< position on the paper [m] and pressure
+  std::array<std::atomic<double>, 3> place_ = {};   ///< position on the paper [m] and pressure
+  std::array<std::atomic<double>, 6> stylus_ = {};  ///< the members of StylusState
   std::atomic<std::uint32_t> buttons_ = 0;
 
   // Used only by the reading thread; in paper axes [m].

@@ -10,10 +10,11 @@
 
 namespace calligraphy {
 
-/// Intended position and velocity of the pen, in device axes unless stated otherwise.
+/// Intended motion of the pen, in device axes unless stated otherwise.
 struct Intention {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< where the hand intends the pen to be [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< velocity of the intended position [m/s]
+  StylusState stylus = {};                             ///< what the pen senses meanwhile; it does not move the device
 };
 
 /// A point mass held by a hand, in virtual time. During advance() the commanded force is held and the intended position

@@ -37,6 +37,9 @@ struct Recording {
   std::vector<RecordedSample> samples;  ///< one per tick, in order
   std::uint32_t page = 0;               ///< page_id() of the page that was written; 0: unknown
   std::string law = {};                 ///< name of the force law, with parameters: "linear: 600 N/m"; empty: unknown
+  /// What came in at each tick, exactly, or empty if it was not recorded. A force of NaN is what the device outputs
+  /// (output_force()) when it is sent that of the tick before.
+  std::vector<DeviceState> inputs = {};
 };
 
 /// Writes comma-separated values. The first line names columns and units; the second, a comment, gives the rate, the

@@ -71,6 +71,7 @@ class SimulatedWriter {
   SimulatedWriter(const PracticePage& page, const WriterSkill& skill, std::uint64_t seed);
 
   /// Sees the display, advances time by `seconds` and returns the intended motion of the pen in that time, on the page.
+  /// The pen senses its pressure and its height above the paper, in the steps of a tablet.
   Intention update(const VisualFeedback& sight, double seconds);
 
   /// Whether all characters are written, or the writer has given up after ten failures at the same stroke, and the pen
