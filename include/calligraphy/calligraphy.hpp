@@ -60,6 +60,7 @@
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/interaction_state.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
+#include <calligraphy/render/option_values.hpp>
 #include <calligraphy/render/paper_friction.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
