@@ -22,6 +22,7 @@
 #include "interrupt.hpp"
 #include "mistyped.hpp"
 #include "output_file.hpp"
+#include "run_record.hpp"
 
 namespace {
 
@@ -81,6 +82,7 @@ int run(int argc, char** argv) {
     return 2;
   }
   calligraphy::tools::check_words(calligraphy::tools::command_text(program), words);
+  calligraphy::tools::remember_command(words);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -5,17 +5,25 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <string>
 #include <system_error>
+#include <utility>
+
+#include <spdlog/spdlog.h>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
 
+#include "run_record.hpp"
+
 namespace calligraphy::tools {
 namespace fs = std::filesystem;
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// Why there is no directory at `at`, where mkdir() has just failed.
 std::string reason(const fs::path& at, int error) {
@@ -27,13 +35,33 @@ std::string reason(const fs::path& at, int error) {
   return std::generic_category().message(error);
 }
 
+/// The record of an earlier run; null if it cannot be read.
+Json record_at(const fs::path& at) {
+  constexpr std::size_t most = 1 << 30;
+  try {
+    return Json::parse(read_file(at, most));
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+/// A name in the directory itself.
+bool is_plain(const std::string& name) {
+  return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos &&
+         name.find('\0') == std::string::npos;
+}
+
 }  // namespace
 
-OutputDirectory::OutputDirectory(const fs::path& path) : path_(fs::absolute(path)) {
+OutputDirectory::OutputDirectory(const fs::path& path, std::string record, bool force)
+    : path_(fs::absolute(path)), name_(std::move(record)), record_(run_facts()) {
+  record_["finished"] = false;
   try {
     create(path);
     lock(path);
     check_writable(path);
+    make_room(path, force);
+    write_record();
   } catch (const fs::filesystem_error& error) {
     release();
     throw FileError(path.string() + ": " + error.code().message());
@@ -76,10 +104,64 @@ void OutputDirectory::check_writable(const fs::path& path) const {
   unlink(name.c_str());
 }
 
-void OutputDirectory::write(const fs::path& name, std::string_view content) const { write_file(path_ / name, content); }
+void OutputDirectory::make_room(const fs::path& path, bool force) const {
+  const fs::path at = path_ / name_;
+  if (!fs::exists(fs::symlink_status(at))) return;
+  const Json old = record_at(at);
+  const std::string told = (path / name_).string();
+  if (!force) {
+    throw FileError(told, "already there, from " + run_of(old) + "; choose another directory, or replace it with --force");
+  }
+  if (old.is_object() && old.contains("files") && old["files"].is_array()) {
+    for (const Json& name : old["files"]) {
+      if (!name.is_string() || !is_plain(name.get<std::string>())) continue;
+      const fs::path file = path_ / name.get<std::string>();
+      if (fs::is_regular_file(fs::symlink_status(file))) fs::remove(file);
+    }
+  } else {
+    spdlog::warn("{}: lists no files, as an earlier version wrote it: only this file is replaced, and others stay", told);
+  }
+  fs::remove(at);
+}
+
+void OutputDirectory::explain(const Json& facts) {
+  record_.insert(facts.begin(), facts.end());
+  write_record();
+}
+
+void OutputDirectory::write(const std::string& name, std::string_view content) {
+  if (std::find(files_.begin(), files_.end(), name) == files_.end()) {
+    files_.push_back(name);
+    write_record();
+  }
+  write_file(path_ / name, content);
+}
+
+void OutputDirectory::keep(const Json& results) {
+  has_results_ = true;
+  explain(results);
+}
+
+void OutputDirectory::finish() {
+  record_["finished"] = true;
+  write_record();
+}
+
+std::string OutputDirectory::text() const {
+  Json all = record_;
+  all["files"] = files_;
+  return json_text(all);
+}
+
+void OutputDirectory::write_record() {
+  write_file(path_ / name_, text());
+  has_record_ = true;
+}
 
 /// rmdir() removes no link, no file and no directory with something in it.
 void OutputDirectory::release() noexcept {
+  if (has_record_ && !has_results_ && files_.empty()) unlink((path_ / name_).c_str());
+  has_record_ = false;
   while (!created_.empty() && rmdir(created_.back().c_str()) == 0) created_.pop_back();
   created_.clear();
   if (lock_ >= 0) close(lock_);

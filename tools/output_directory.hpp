@@ -2,32 +2,58 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 namespace calligraphy::tools {
 
 /// Creates the directory and its parents if missing; the destructor removes those it created that are still empty, and
 /// nothing else. No other run may use it in the meantime: the system's lock on the directory goes with the process,
 /// however it ends. Where there are no such locks (some network file systems) it is not locked.
+///
+/// The directory explains itself: a record in JSON says from the start what is run, and lists every file before it is
+/// written, so that a run that was killed is explained too. A run whose record is there is never overwritten, unless
+/// that is forced; then the files that its record lists are removed, and no others. A run that ends by an exception
+/// before it has written a file leaves no record.
 class OutputDirectory {
  public:
-  /// @throws FileError naming the directory if no file can be written into it, or another run uses it
-  explicit OutputDirectory(const std::filesystem::path& path);
+  /// @param record name of the record
+  /// @param force replaces a run that is there
+  /// @throws FileError naming the directory if no file can be written into it, or another run uses it; naming the
+  /// record and its run if there is one
+  OutputDirectory(const std::filesystem::path& path, std::string record, bool force);
   ~OutputDirectory();
   OutputDirectory(const OutputDirectory&) = delete;
   OutputDirectory& operator=(const OutputDirectory&) = delete;
 
+  /// Adds to the record what is known at the start. @throws FileError
+  void explain(const nlohmann::ordered_json& facts);
   /// Writes the whole file or none. @throws FileError
-  void write(const std::filesystem::path& name, std::string_view content) const;
+  void write(const std::string& name, std::string_view content);
+  /// Adds results to the record, which then stays. What explain() has said is not changed. @throws FileError
+  void keep(const nlohmann::ordered_json& results);
+  /// Says in the record that the run is finished. @throws FileError
+  void finish();
+  /// The text of the record.
+  std::string text() const;
 
  private:
   void create(const std::filesystem::path& path);
   void lock(const std::filesystem::path& path);
   void check_writable(const std::filesystem::path& path) const;
+  void make_room(const std::filesystem::path& path, bool force) const;
+  void write_record();
   void release() noexcept;
 
   std::filesystem::path path_;
+  std::string name_;                            ///< of the record
+  nlohmann::ordered_json record_;               ///< without the files
+  std::vector<std::string> files_;              ///< in the order in which they were written
+  bool has_record_ = false;                     ///< this run's record is there
+  bool has_results_ = false;                    ///< with results in it
   std::vector<std::filesystem::path> created_;  ///< parents first
   int lock_ = -1;                               ///< descriptor of the locked directory; -1: not locked
 };

@@ -44,17 +44,24 @@ CLI::Option* add_out_file(CLI::App& command, std::string& out) {
       ->type_name("FILE");
 }
 
-CLI::Option* add_out_directory(CLI::App& command, std::string& out, const std::string& what) {
+CLI::Option* add_out_directory(CLI::App& command, RunOutput& out, const std::string& what, const std::string& record) {
   const auto is_directory = [](const std::string& word) {
     return word == standard_output ? std::string("several files are written, into a directory; ./- is one named -")
                                    : std::string();
   };
-  return add_out(command, out,
-                 "Directory for " + what +
-                     ", created if missing. Files of an earlier run are replaced if they have the same name, and "
-                     "otherwise stay")
-      ->check(CLI::Validator(is_directory, ""))
-      ->type_name("DIR");
+  CLI::Option* const option = add_out(command, out.directory,
+                                      "Directory for " + what +
+                                          ", created if missing. It is refused if a run is already there, whose record "
+                                          "is " +
+                                          record + "; other files stay, except those of the same name")
+                                  ->check(CLI::Validator(is_directory, ""))
+                                  ->type_name("DIR");
+  command
+      .add_flag("--force", out.force,
+                "Replace the run that is in DIR: first remove the files that its record lists, and the record")
+      ->disable_flag_override()
+      ->needs(option);
+  return option;
 }
 
 void check_output(const std::string& out) {

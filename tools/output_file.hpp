@@ -25,8 +25,15 @@ void keep_output_to_ourselves();
 /// Adds -o, --out FILE; required unless `out` has a value, the default.
 CLI::Option* add_out_file(CLI::App& command, std::string& out);
 
-/// Adds -o, --out DIR, where `what` is to be written, as in "plots and JSON".
-CLI::Option* add_out_directory(CLI::App& command, std::string& out, const std::string& what);
+/// Where a run writes its files.
+struct RunOutput {
+  std::string directory;  ///< empty: nowhere
+  bool force = false;     ///< a run that is there is replaced
+};
+
+/// Adds -o, --out DIR, where `what` is to be written, as in "plots and JSON", and --force. `record` is the name of the
+/// file that says what was run (OutputDirectory).
+CLI::Option* add_out_directory(CLI::App& command, RunOutput& out, const std::string& what, const std::string& record);
 
 /// Before long work. @throws FileError if the file cannot be written
 void check_output(const std::string& out);

@@ -25,16 +25,18 @@
 #include "output_file.hpp"
 #include "progress.hpp"
 #include "replay_report.hpp"
+#include "run_record.hpp"
 
 namespace calligraphy::tools {
 namespace {
 
+constexpr const char* replay_file = "replay.json";
 constexpr std::size_t most_recognised = 5;
 
 struct ReplayArguments {
   std::string traces;
   std::vector<std::string> characters;
-  std::string out;
+  RunOutput out;
   std::optional<std::string> only;
   std::string order;
   std::string leniency = "normal";
@@ -87,8 +89,7 @@ class ReplayRun {
     layout_ = options.page.layout(session_.device);
     session_.mapping = options.page.mapping(layout_.width, layout_.height);
     report_.renderer = options.renderer;
-    report_.device = session_.device.model;
-    report_.peak_force = session_.device.peak_force;
+    report_.device = session_.device;
   }
 
   void replay() {
@@ -111,7 +112,13 @@ class ReplayRun {
     const auto with_template = static_cast<std::size_t>(std::count_if(traces.begin(), traces.end(), has_template));
     const Interrupt interrupt;
     std::optional<OutputDirectory> out;
-    if (!options_.out.empty()) out.emplace(options_.out);
+    if (!options_.out.directory.empty()) {
+      out.emplace(options_.out.directory, replay_file, options_.out.force);
+      out->explain({{"page", page_json(options_.page, layout_)},
+                    {"mapping", mapping_json(*session_.mapping)},
+                    {"device", device_json(session_.device)},
+                    {"options", options_json(session_.renderer)}});
+    }
     Progress progress;
     for (std::size_t i = 0; i < traces.size(); ++i) {
       if (interrupt.asked()) break;
@@ -121,8 +128,9 @@ class ReplayRun {
     }
     if (report_.traces.empty()) interrupt.check();
     report_.interrupted = report_.traces.size() < with_template;
-    if (out) out->write("replay.json", json(report_));
-    fmt::print("{}", options_.json ? json(report_) : table(report_, options_.language));
+    if (out) out->keep(json(report_));
+    if (out && !report_.interrupted) out->finish();
+    fmt::print("{}", options_.json ? json_text(json(report_)) : table(report_, options_.language));
     if (report_.interrupted) {
       throw Error(fmt::format("interrupted after {} of {} traces", report_.traces.size(), with_template));
     }
@@ -152,7 +160,7 @@ class ReplayRun {
   }
 
   void replay_one(const Chosen& chosen, const std::vector<StoredCharacter>& forms, const CharacterIndex& index,
-                  const std::optional<OutputDirectory>& out) {
+                  std::optional<OutputDirectory>& out) {
     std::vector<Character> accepted;
     for (const StoredCharacter& form : forms) accepted.push_back(form.character());
     const std::vector<PenPath> paths = pen_paths(chosen.trace);
@@ -181,7 +189,7 @@ class ReplayRun {
                                        [](const RecordedSample& sample) { return sample.status != TickStatus::ok; }));
     if (out) {
       const std::string title =
-          fmt::format("{}, {}, {}", encode_utf8(character.code), chosen.trace.set, report_.device);
+          fmt::format("{}, {}, {}", encode_utf8(character.code), chosen.trace.set, report_.device.model);
       const std::vector<PenPath> guided = pen_paths(recording, page.characters.front().placement);
       out->write(fmt::format("{:02}-{}.svg", chosen.position, name_in_file(character.code)),
                  replay_picture(character, paths, result.match, guided, title, options_.style, options_.language));
@@ -212,7 +220,7 @@ void add_replay(CLI::App& program) {
       ->required()
       ->type_name("FILE");
   add_characters_option(*command, options->characters);
-  add_out_directory(*command, options->out, "pictures and JSON");
+  add_out_directory(*command, options->out, "pictures and JSON", replay_file);
   command->add_option("--only", options->only, "Replay only traces of these characters")->type_name("TEXT");
   command
       ->add_option("--order", options->order,

@@ -9,6 +9,7 @@
 
 #include <calligraphy/base/text.hpp>
 
+#include "run_record.hpp"
 #include "score_json.hpp"
 #include "table_head.hpp"
 
@@ -182,8 +183,8 @@ std::string table(const ReplayReport& report, const Language& language) {
           fmt::format("{:>3} {}  {}\n", trace.position, character, remark_text(remark, match.character, language));
     }
   }
-  text += language.text("replay.limits", {{"device", report.device},
-                                          {"force", fixed(report.peak_force, 2)},
+  text += language.text("replay.limits", {{"device", report.device.model},
+                                          {"force", fixed(report.device.peak_force, 2)},
                                           {"step", fixed(report.max_force_step, 3)}}) +
           "\n\n" + motion_table(report, language);
   if (!remarks.empty()) text += "\n" + remarks;
@@ -214,20 +215,20 @@ std::string table(const ReplayReport& report, const Language& language) {
   return text;
 }
 
-std::string json(const ReplayReport& report) {
+nlohmann::ordered_json json(const ReplayReport& report) {
   Json traces = Json::array();
   for (const Replayed& trace : report.traces) traces.push_back(json_of(trace));
   Json missing = Json::array();
   for (const char32_t code : report.without_template) missing.push_back(encode_utf8(code));
-  Json all = {{"device", report.device},
+  Json all = {{"device", device_json(report.device)},
               {"renderer", report.renderer},
-              {"peak_force_limit_N", report.peak_force},  // null: no limit
+              {"peak_force_limit_N", report.device.peak_force},  // null: no limit
               {"force_step_limit_N", report.max_force_step},
               {"interrupted", report.interrupted},
               {"traces", traces},
               {"without_template", missing}};
   for (const Recognised& each : report.recognised) all["recognised"].push_back(json_of(each));
-  return all.dump(2) + "\n";
+  return all;
 }
 
 }  // namespace calligraphy::tools

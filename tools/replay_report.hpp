@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <calligraphy/judge/character_index.hpp>
 #include <calligraphy/judge/language.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
@@ -32,9 +34,8 @@ struct Recognised {
 };
 
 struct ReplayReport {
-  std::string device;
+  Capabilities device;
   std::string renderer;         ///< "default" or "everything"
-  double peak_force = 0.0;      ///< of the device [N]
   double max_force_step = 0.0;  ///< of the renderer [N per tick]
   std::vector<Replayed> traces;
   std::vector<Recognised> recognised;  ///< if asked for, of every trace
@@ -45,6 +46,6 @@ struct ReplayReport {
 /// One line per trace, the limits, all remarks in a language, then the totals.
 std::string table(const ReplayReport& report, const Language& language);
 
-std::string json(const ReplayReport& report);
+nlohmann::ordered_json json(const ReplayReport& report);
 
 }  // namespace calligraphy::tools

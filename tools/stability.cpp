@@ -22,16 +22,18 @@
 #include "output_directory.hpp"
 #include "output_file.hpp"
 #include "progress.hpp"
+#include "run_record.hpp"
 #include "stability_report.hpp"
 
 namespace calligraphy::tools {
 namespace {
 
+constexpr const char* stability_file = "stability.json";
 constexpr double largest = 1e9;  ///< upper limit of most numeric options, as in the library
 
 struct StabilityArguments {
   std::optional<std::string> device, grip;
-  std::string out;
+  RunOutput out;
   std::optional<double> mass, damping, rate, wall_damping, friction, encoder_step;
   std::optional<int> delay;
   bool quick = false;
@@ -89,7 +91,7 @@ bool asks_for_a_point(const StabilityArguments& options) {
 }
 
 void advise(const StabilityArguments& options) {
-  if (!options.out.empty() || options.quick) {
+  if (!options.out.directory.empty() || options.quick) {
     throw UsageError(std::string(options.quick ? "--quick" : "--out") + " applies to the map, not to a single loop");
   }
   const SampledLoop loop = loop_of(options);
@@ -100,7 +102,7 @@ void advise(const StabilityArguments& options) {
 void map(const StabilityArguments& options) {
   const Interrupt interrupt;
   std::optional<OutputDirectory> out;
-  if (!options.out.empty()) out.emplace(options.out);
+  if (!options.out.directory.empty()) out.emplace(options.out.directory, stability_file, options.out.force);
   StabilityMapOptions wanted;
   if (options.quick) {
     wanted.with_grid = false;
@@ -112,10 +114,10 @@ void map(const StabilityArguments& options) {
     progress.show(share);
   };
   const StabilityMap map = stability_map(wanted);
-  fmt::print("{}", options.json ? json(map) : tables(map));
+  fmt::print("{}", options.json ? json_text(json(map)) : tables(map));
   std::fflush(stdout);  // results are printed even if plotting fails
   if (!out) return;
-  out->write("stability.json", json(map));
+  out->keep(json(map));
   const bool plots = gnuplot_available();
   interrupt.check();  // Ctrl-C also reaches gnuplot, which then seems unavailable
   if (plots) {
@@ -123,6 +125,7 @@ void map(const StabilityArguments& options) {
   } else {
     spdlog::warn("gnuplot is not available: the map is not plotted");
   }
+  out->finish();
 }
 
 }  // namespace
@@ -155,7 +158,7 @@ void add_stability(CLI::App& program) {
   add_number("--wall-damping", options->wall_damping, "Damping of the wall, 0 to 1e9 (default: 0)", "N_S/M");
   add("--grip", options->grip, "Grip: soft, normal, firm or m,b,k [kg, N s/m, N/m] (default: none)", "GRIP")
       ->check(such_as({"soft", "normal", "firm"}));
-  add_out_directory(*command, options->out, "stability.json and stability.svg");
+  add_out_directory(*command, options->out, "stability.json and stability.svg", stability_file);
   command->add_flag("--quick", options->quick, "Only the sweeps of the map, on a coarser grid")
       ->disable_flag_override();
   command->add_flag("--json", options->json, "Print JSON instead of the tables")->disable_flag_override();

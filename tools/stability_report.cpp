@@ -138,7 +138,7 @@ std::string tables(const StabilityMap& map) {
   return text + summary(map);
 }
 
-std::string json(const StabilityMap& map) {
+nlohmann::ordered_json json(const StabilityMap& map) {
   Json sweeps = Json::array(), grid = Json::array();
   for (const StabilitySweep& sweep : map.sweeps) sweeps.push_back(json_of(sweep));
   for (const StabilityLine& line : map.grid) grid.push_back(json_of(line));
@@ -150,7 +150,7 @@ std::string json(const StabilityMap& map) {
                        {"stiffnesses_N_per_m", map.stiffnesses},
                        {"sweeps", std::move(sweeps)},
                        {"grid", std::move(grid)}};
-  return object.dump() + "\n";
+  return object;
 }
 
 }  // namespace calligraphy::tools

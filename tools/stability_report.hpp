@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <calligraphy/experiments/stability_map.hpp>
 
 namespace calligraphy::tools {
@@ -12,6 +14,6 @@ std::string json(const SampledLoop& loop, const StiffnessAdvice& advice);
 
 /// One table per sweep, and a summary of the grid.
 std::string tables(const StabilityMap& map);
-std::string json(const StabilityMap& map);
+nlohmann::ordered_json json(const StabilityMap& map);
 
 }  // namespace calligraphy::tools

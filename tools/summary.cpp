@@ -227,7 +227,7 @@ std::string table(const Summary& summary, const Language& language) {
   return text + "\n" + means(results, language);
 }
 
-std::string json(const Summary& summary) {
+nlohmann::ordered_json json(const Summary& summary) {
   Json list = Json::array();
   for (const Result& result : summary.results) {
     const CharacterScore& score = result.score;
@@ -243,7 +243,7 @@ std::string json(const Summary& summary) {
                     {"mode", to_string(result.mode)},
                     {"repetition", result.repetition},
                     {"seed", result.seed},
-                    {"time_s", score.time},
+                    {"writing_time_s", score.time},
                     {"rms_error_mm", score.rms_error * millimetres},  // null: nothing was written
                     {"max_error_mm", score.max_error * millimetres},
                     {"overall_error_mm", score.overall_error * millimetres},
@@ -273,7 +273,7 @@ std::string json(const Summary& summary) {
                     {"interrupted", summary.interrupted},
                     {"warnings", summary.warnings},
                     {"results", list}};
-  return all.dump(2) + "\n";
+  return all;
 }
 
 std::string reductions(const std::vector<Result>& results, const Language& language) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <calligraphy/judge/language.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
@@ -38,7 +40,7 @@ std::string table(const Summary& summary, const Language& language);
 
 /// An object: how many repetitions were asked for, whether the run was interrupted, the warnings, and a list with one
 /// object per result.
-std::string json(const Summary& summary);
+nlohmann::ordered_json json(const Summary& summary);
 
 /// Reduction of error and time with force: mean and 95 % interval over the pairs of character and repetition that are
 /// complete in both modes; with fewer than 10 pairs of runs, that they are too few. Empty without a pair.

@@ -25,11 +25,13 @@
 #include "output_directory.hpp"
 #include "output_file.hpp"
 #include "progress.hpp"
+#include "run_record.hpp"
 #include "tradeoff_report.hpp"
 
 namespace calligraphy::tools {
 namespace {
 
+constexpr const char* tradeoff_file = "tradeoff.json";
 /// Number of characters written at every servo rate.
 constexpr std::size_t max_written = 2;
 
@@ -37,7 +39,7 @@ struct TradeoffArguments {
   std::string text = "永北京航空天大学和年书法";
   std::vector<std::string> characters;
   std::string ink;
-  std::string out;
+  RunOutput out;
   std::uint64_t seed = 1;
   std::optional<int> queries;
   bool quick = false;
@@ -88,8 +90,8 @@ void measure(TradeoffReport& report, const std::vector<Character>& characters, c
   progress.show(1.0);
 }
 
-void draw(const TradeoffReport& report, const OutputDirectory& out, const Interrupt& interrupt) {
-  out.write("tradeoff.json", json(report));
+void draw(const TradeoffReport& report, OutputDirectory& out, const Interrupt& interrupt) {
+  out.keep(json(report));
   for (const ForceFieldFigure& figure : ambiguity_figures()) {
     out.write("field-" + figure.name + ".svg", force_field_picture(figure));
   }
@@ -116,13 +118,14 @@ void run(const TradeoffArguments& options) {
   const Interrupt interrupt;
   if (!options.ink.empty()) report.ink = with_ink(options.ink, report.text, interrupt);
   std::optional<OutputDirectory> out;
-  if (!options.out.empty()) out.emplace(options.out);
+  if (!options.out.directory.empty()) out.emplace(options.out.directory, tradeoff_file, options.out.force);
   measure(report, characters, interrupt);
-  fmt::print("{}", options.json ? json(report) : tables(report));
+  fmt::print("{}", options.json ? json_text(json(report)) : tables(report));
   std::fflush(stdout);  // results are printed even if plotting fails
   if (!out) return;
   try {
     draw(report, *out, interrupt);
+    out->finish();
   } catch (const Error&) {
     interrupt.check();
     throw;
@@ -148,7 +151,7 @@ void add_tradeoff(CLI::App& program) {
       ->add_option("--ink", options->ink,
                    "hanzi-writer-data (directory or npm tarball): also measure what the ink of TEXT takes and covers")
       ->type_name("PATH");
-  add_out_directory(*command, options->out, "plots and JSON");
+  add_out_directory(*command, options->out, "plots and JSON", tradeoff_file);
   command->add_option("--seed", options->seed, "Seed of all random draws")
       ->check(integer(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("N")

@@ -165,7 +165,7 @@ std::string tables(const TradeoffReport& report) {
          hand_table(report) + rate_table(report) + width_table(report) + (report.ink ? ink_table(*report.ink) : "");
 }
 
-std::string json(const TradeoffReport& report) {
+nlohmann::ordered_json json(const TradeoffReport& report) {
   const NearestPointTradeoffOptions& options = report.nearest_options;
   Json object = {
       {"characters", utf8(report.text)},
@@ -180,7 +180,7 @@ std::string json(const TradeoffReport& report) {
       {"servo_rate", list_of(report.servo_rate)},
       {"coordinate_width", list_of(report.coordinate_width)}};
   if (report.ink) object["ink"] = ink_json(*report.ink);
-  return object.dump(2) + "\n";
+  return object;
 }
 
 }  // namespace calligraphy::tools

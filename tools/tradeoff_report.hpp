@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <calligraphy/experiments/tradeoff.hpp>
 #include <calligraphy/importers/character_import.hpp>
 
@@ -25,6 +27,6 @@ struct TradeoffReport {
 std::string tables(const TradeoffReport& report);
 
 /// An object with one list per tradeoff.
-std::string json(const TradeoffReport& report);
+nlohmann::ordered_json json(const TradeoffReport& report);
 
 }  // namespace calligraphy::tools

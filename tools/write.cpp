@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/pictures/picture.hpp>
@@ -29,16 +30,20 @@
 #include "output_directory.hpp"
 #include "output_file.hpp"
 #include "pen.hpp"
+#include "practice/session_tick.hpp"
 #include "progress.hpp"
+#include "run_record.hpp"
 #include "servo_report.hpp"
 #include "summary.hpp"
 
 namespace calligraphy::tools {
 namespace {
 
+constexpr const char* summary_file = "summary.json";
+
 struct WriteArguments {
   std::string text;
-  std::string out;
+  RunOutput out;
   std::vector<std::string> characters;
   std::string order;
   std::string device = "simulated:desktop";
@@ -194,7 +199,8 @@ class WriteRun {
     sheets_ = sheets(characters_of(set, text, options_.order), options_.page.layout(session_.device));
     if (pen_.is_replay() && sheets_.size() > 1)
       throw UsageError("TEXT: does not fit on one page, as a replay requires");
-    const OutputDirectory out(options_.out);
+    OutputDirectory out(options_.out.directory, summary_file, options_.out.force);
+    explain(out);
     plots_ = gnuplot_available();
     if (!plots_) spdlog::warn("gnuplot is not available: forces are not plotted");
     write_all(out);
@@ -205,10 +211,11 @@ class WriteRun {
     std::sort(summary_.results.begin(), summary_.results.end(), order);
     summary_.interrupted = pen_.interrupted();
     summary_.warnings = pen_.warnings();
-    out.write("summary.json", json(summary_));
     if (pen_.is_person()) out.write("servo.json", json(pen_.statistics()));
-    report();
-    if (pen_.interrupted()) tell_of_interruption("results so far are in " + options_.out);
+    out.keep(json(summary_));
+    if (!summary_.interrupted) out.finish();
+    report(out);
+    if (pen_.interrupted()) tell_of_interruption("results so far are in " + options_.out.directory);
   }
 
  private:
@@ -218,7 +225,33 @@ class WriteRun {
     throw Error("interrupted; " + what_is_there);
   }
 
-  void write_all(const OutputDirectory& out) {
+  /// Says what is known before anything is written.
+  void explain(OutputDirectory& out) const {
+    const PageLayout layout = options_.page.layout(session_.device);
+    nlohmann::ordered_json page = page_json(options_.page, layout);
+    page["pages"] = sheets_.size();
+    const HapticRenderer renderer(sheets_.front().page.characters, *session_.mapping, session_.device,
+                                  session_.renderer);
+    nlohmann::ordered_json law, writer, seeds;
+    for (const FeedbackMode mode : modes_) {
+      law[to_string(mode)] = recording_for(sheets_.front().page, renderer, mode, session_.law).law;
+    }
+    if (!pen_.is_person() && !pen_.is_replay()) {
+      writer = writer_json(options_.writer.value_or("novice"), session_.skill);
+      seeds = {{"first", options_.seed}, {"count", sheets_.size() * static_cast<std::size_t>(options_.repeat)}};
+    }
+    out.explain({{"text", options_.text},
+                 {"page", page},
+                 {"mapping", mapping_json(*session_.mapping)},
+                 {"device", device_json(session_.device)},
+                 {"options", options_json(renderer.options())},
+                 {"law", law},
+                 {"writer", writer},
+                 {"seeds", seeds},
+                 {"repetitions_requested", summary_.repetitions}});
+  }
+
+  void write_all(OutputDirectory& out) {
     Progress progress;
     std::size_t done = 0;
     std::size_t characters = 0;
@@ -248,7 +281,7 @@ class WriteRun {
     }
   }
 
-  void write_sheet(std::size_t number, int repetition, const OutputDirectory& out) {
+  void write_sheet(std::size_t number, int repetition, OutputDirectory& out) {
     const Sheet& sheet = sheets_[number];
     if (pen_.is_person()) {
       const Language& language = options_.language;
@@ -284,7 +317,7 @@ class WriteRun {
   }
 
   void draw(const PracticePage& page, const Recording& recording, const Recording& own, int index, const Result& result,
-            const OutputDirectory& out) const {
+            OutputDirectory& out) const {
     const char32_t code = result.score.character;
     const std::string stem = file_stem(result.position, code, result.mode);
     const char* const mode = result.mode == FeedbackMode::vision ? "mode.vision_only" : "mode.vision_and_force";
@@ -300,9 +333,9 @@ class WriteRun {
     out.write(stem + ".csv", trace.str());
   }
 
-  void report() const {
+  void report(const OutputDirectory& out) const {
     if (options_.json) {
-      fmt::print(output(), "{}", json(summary_));
+      fmt::print(output(), "{}", out.text());
     } else {
       const Language& language = options_.language;
       fmt::print(output(), "{}{}{}", table(summary_, language), reductions(summary_.results, language),
@@ -351,7 +384,7 @@ void add_write(CLI::App& program) {
       ->add_option("TEXT", options->text,
                    "Characters to write; white space is ignored, and so is punctuation that the set lacks")
       ->required();
-  add_out_directory(*command, options->out, "the results")->required();
+  add_out_directory(*command, options->out, "the results", summary_file)->required();
   add_characters_option(*command, options->characters);
   command->add_option("--order", options->order, "Alternate stroke order (default: the standard one)")
       ->type_name("NAME");
