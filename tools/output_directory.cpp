@@ -110,7 +110,8 @@ void OutputDirectory::make_room(const fs::path& path, bool force) const {
   const Json old = record_at(at);
   const std::string told = (path / name_).string();
   if (!force) {
-    throw FileError(told, "already there, from " + run_of(old) + "; choose another directory, or replace it with --force");
+    throw FileError(told,
+                    "already there, from " + run_of(old) + "; choose another directory, or replace it with --force");
   }
   if (old.is_object() && old.contains("files") && old["files"].is_array()) {
     for (const Json& name : old["files"]) {
@@ -119,7 +120,7 @@ void OutputDirectory::make_room(const fs::path& path, bool force) const {
       if (fs::is_regular_file(fs::symlink_status(file))) fs::remove(file);
     }
   } else {
-    spdlog::warn("{}: lists no files, as an earlier version wrote it: only this file is replaced, and others stay", told);
+    spdlog::warn("{}: lists no files, as that of an earlier version: it alone is replaced, and other files stay", told);
   }
   fs::remove(at);
 }

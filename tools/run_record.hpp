@@ -36,8 +36,8 @@ nlohmann::ordered_json writer_json(std::string_view name, const WriterSkill& ski
 /// The text of a JSON file: indented; what is not UTF-8, as in a file's name, is replaced.
 std::string json_text(const nlohmann::ordered_json& json);
 
-/// Of which run a record is, for messages: "a run of 2026-11-28T10:15:00+01:00: calligraphy write 永 --out out". What the
-/// record does not say is left out.
+/// Of which run a record is, for messages: "a run of 2026-11-28T10:15:00+01:00: calligraphy write 永 --out out". What
+/// the record does not say is left out.
 std::string run_of(const nlohmann::ordered_json& record);
 
 }  // namespace calligraphy::tools

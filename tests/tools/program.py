@@ -108,7 +108,25 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(self.files(), [])
 
     def summary(self, out="out"):
-        return json.loads((self.directory / out / "summary.json").read_text())["results"]
+        return self.record(out)["results"]
+
+    def record(self, out="out", name="summary.json"):
+        """What the record of a run says."""
+        return json.loads((self.directory / out / name).read_text())
+
+    def contents(self):
+        """Every file with its bytes."""
+        return {path: (self.directory / path).read_bytes() for path in self.files()
+                if (self.directory / path).is_file()}
+
+    def killed(self, *arguments, once):
+        """Ends the program without a warning as soon as the file `once` exists."""
+        running = subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], *arguments], cwd=self.directory,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while running.poll() is None and not (self.directory / once).exists():
+            time.sleep(0.001)
+        running.kill()
+        self.assertEqual(running.wait(600), -signal.SIGKILL)
 
     def files(self):
         return sorted(str(path.relative_to(self.directory)) for path in self.directory.rglob("*"))

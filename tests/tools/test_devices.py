@@ -26,7 +26,7 @@ class Devices(ProgramTest):
         self.assertEqual(set(devices), {"phantom", "openhaptics", "simulated"})
         self.assertIn("simulated:desktop", devices["simulated"])
         for name in devices["simulated"]:
-            self.run_program("write", "一", "--out", "out", "--mode", "force", "--device", name)
+            self.run_program("write", "一", "--out", name, "--mode", "force", "--device", name)
 
     def test_a_missing_device_is_named(self):
         self.assert_refused(1, ["devices", "probe", "none-such", "--out", "probe.txt"], "none-such")
@@ -114,7 +114,7 @@ class Devices(ProgramTest):
         """Sent while a force is on; 128 is added to a signal that ended the program."""
         for number, code in ((signal.SIGINT, 130), (signal.SIGQUIT, 131), (signal.SIGSEGV, 139)):
             with self.subTest(signal=number.name):
-                done = self.run_on_emulated_phantom("write", "永", "--device", "phantom", "--out", "out", code=code,
+                done = self.run_on_emulated_phantom("write", "永", "--device", "phantom", "--out", number.name, code=code,
                                                     hand=["--write", "永", "--signal", str(int(number))])
                 self.assertRegex(done.stderr, r"the last for 0 N\n")
                 if number == signal.SIGINT:  # at once, without a ramp
@@ -124,7 +124,7 @@ class Devices(ProgramTest):
         for key in (b" ", b"\x1b"):
             with self.subTest(key=key):
                 code, told, (before, during, after) = self.on_emulated_phantom_in_terminal(
-                    "write", "永", "--device", "phantom", "--out", "out", hand=["--write", "永"],
+                    "write", "永", "--device", "phantom", "--out", "out", "--force", hand=["--write", "永"],
                     once="space, Esc or Ctrl-C takes the force away and stops", key=b"x" + key)
                 self.assertEqual(code, 0, told)
                 self.assertIn("stopped; results so far are in out", told)

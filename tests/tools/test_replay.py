@@ -183,7 +183,14 @@ class Replay(ReplayTest):
         done = self.run_program("replay", traces, "--out", "deep/out", "--json")
         self.assertEqual(done.stderr, "", "no progress bar in a pipe")
         out = self.directory / "deep" / "out"
-        self.assertEqual((out / "replay.json").read_text(), done.stdout)
+        record = self.record("deep/out", "replay.json")
+        report = json.loads(done.stdout)
+        self.assertEqual({key: record[key] for key in report}, report)
+        self.assertEqual((record["finished"], record["command"]),
+                         (True, ["replay", traces, "--out", "deep/out", "--json"]))
+        self.assertEqual(record["files"], ["01-三.svg", "02-十.svg", "03-〇.svg"])
+        self.assertEqual((record["device"]["model"], record["options"]["guidance.stiffness"], record["page"]["pose"]),
+                         ("Phantom Desktop", "600", "upright"))
         pictures = sorted(path.name for path in out.glob("*.svg"))
         self.assertEqual(pictures, ["01-三.svg", "02-十.svg", "03-〇.svg"])
         for name in pictures:
@@ -225,8 +232,13 @@ class Replay(ReplayTest):
         first = self.run_program("replay", traces, "--json", "--out", "a")
         second = self.run_program("replay", traces, "--json", "--out", "b")
         self.assertEqual(first.stdout, second.stdout)
-        for path in (self.directory / "a").iterdir():
+        for path in (self.directory / "a").glob("*.svg"):
             self.assertEqual(path.read_bytes(), (self.directory / "b" / path.name).read_bytes())
+        records = [self.record(out, "replay.json") for out in "ab"]
+        for record in records:
+            for key in ("command", "date"):
+                del record[key]
+        self.assertEqual(*records)
 
 
 class Refusals(ReplayTest):

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from program import ProgramTest
 
-FIELDS = ["character", "mode", "time_s", "rms_error_mm", "max_error_mm", "overall_error_mm", "coverage",
+FIELDS = ["character", "mode", "writing_time_s", "rms_error_mm", "max_error_mm", "overall_error_mm", "coverage",
           "order_mistakes", "direction_mistakes", "extra_pen_downs", "missing_strokes", "strokes_written", "remarks",
           "strokes_completed", "peak_force_N", "max_force_step_N", "tick_ns_p50", "tick_ns_p999"]
 
@@ -54,7 +54,7 @@ class Write(ProgramTest):
         arguments = ["write", "永", "--seed", "2", "--out", "out"]
         english = said(self.run_program(*arguments).stdout, "reason", {"vision": "vision", "force": "force"})
         self.assertIn("Your 1st line is stroke 1 (diǎn) backwards: start at the top left.", english)
-        printed = self.run_program(*arguments, "--language", "zh").stdout
+        printed = self.run_program(*arguments, "--language", "zh", "--force").stdout
         chinese = said(printed, "reason_zh", {"vision": "视觉", "force": "力觉"})
         self.assertIn("你写的第1笔是第1笔（点），但方向反了，从左上方起笔。", chinese)
         self.assertEqual(printed.splitlines()[1].split()[:3], ["汉字", "方式", "[s]"])
@@ -76,8 +76,9 @@ class Write(ProgramTest):
         written = len(self.summary())
         self.assertTrue(printed.startswith(f"interrupted: means over {written} of 100000 repetitions\n"), printed)
         self.assertEqual(row.split()[1], "force")
-        whole = json.loads((self.directory / "out/summary.json").read_text())
-        self.assertEqual((whole["repetitions_requested"], whole["interrupted"]), (100000, True))
+        whole = self.record()
+        self.assertEqual((whole["repetitions_requested"], whole["interrupted"], whole["finished"]),
+                         (100000, True, False))
         self.assertGreater(written, 0)
         self.assertLess(written, 100000)
 
@@ -99,17 +100,9 @@ class Write(ProgramTest):
                 running.send_signal(signal.SIGCONT)
                 running.send_signal(ending)
                 running.wait(600)
-                self.run_program(*run)
+                self.run_program(*run, "--force")
                 self.assertEqual(len(self.summary()), 1)
                 shutil.rmtree(self.directory / "out")
-
-    def test_files_of_an_earlier_run_are_replaced_by_name_and_otherwise_stay(self):
-        self.run_program("write", "十一", "--mode", "force", "--out", "out")
-        (self.directory / "out" / "summary.json").write_text("old")
-        self.run_program("write", "十", "--mode", "force", "--out", "out")
-        self.assertEqual(len(self.summary()), 1)
-        self.assertTrue((self.directory / "out" / "02-一-force.csv").exists())
-        self.assertIn("Files of an earlier run", " ".join(self.run_program("write", "--help").stdout.split()))
 
     def without_ticks(self, out):
         return [{k: v for k, v in row.items() if not k.startswith("tick_ns")} for row in self.summary(out)]
@@ -130,7 +123,7 @@ class Write(ProgramTest):
         for row in self.summary("deep/out"):
             self.assertLessEqual(set(FIELDS), set(row))
             self.assertEqual(row["strokes_completed"], row["strokes"])
-            self.assertGreater(row["time_s"], 0.0)
+            self.assertGreater(row["writing_time_s"], 0.0)
             self.assertGreater(row["rms_error_mm"], 0.0)
             self.assertGreaterEqual(row["max_error_mm"], row["rms_error_mm"])
             self.assertGreater(row["tick_ns_p50"], 0.0)
@@ -193,7 +186,7 @@ class Write(ProgramTest):
     def test_too_few_runs_to_show_an_effect_are_said_to_be_too_few(self):
         for repeat, words in (("1", "n = 1 pair of runs: too few to show an effect of force; try --repeat 20"),
                               ("9", "n = 9 pairs of runs: too few")):
-            text = self.run_program("write", "一", "--out", "out", "--repeat", repeat).stdout
+            text = self.run_program("write", "一", "--out", repeat, "--repeat", repeat).stdout
             self.assertIn(words, text)
             self.assertNotIn("less with force", text)
         text = self.run_program("write", "一", "--out", "out", "--mode", "force").stdout
@@ -207,7 +200,8 @@ class Write(ProgramTest):
     def test_a_page_holds_what_the_workspace_times_the_motion_scale_can_hold(self):
         for options, pages in (([], 2), (["--page", "desk"], 3), (["--motion-scale", "2"], 1)):
             with self.subTest(options=options):
-                self.run_program("write", "一一一一一一一", "--device", "omni", "--mode", "force", "--out", "out", *options)
+                self.run_program("write", "一一一一一一一", "--device", "omni", "--mode", "force", "--out", "out",
+                                 "--force", *options)
                 rows = self.summary()
                 self.assertEqual(len({row["seed"] for row in rows}), pages, "one seed per page")
 
@@ -224,7 +218,7 @@ class Write(ProgramTest):
         self.run_program("write", "十", "--out", "first", "--mode", "force", *page)
         self.run_program("write", "十", "--out", "again", "--device", "replay:first/01-十-force.csv", *page)
         first, again = self.summary("first")[0], self.summary("again")[0]
-        for field in ("strokes_completed", "rms_error_mm", "time_s", "peak_force_N"):
+        for field in ("strokes_completed", "rms_error_mm", "writing_time_s", "peak_force_N"):
             self.assertAlmostEqual(again[field], first[field], places=5)
 
     def test_repetitions_are_paired_by_their_seeds(self):
@@ -232,6 +226,8 @@ class Write(ProgramTest):
         rows = self.summary()
         whole = json.loads(done.stdout)
         self.assertEqual((whole["repetitions_requested"], whole["interrupted"], whole["results"]), (3, False, rows))
+        self.assertEqual(whole, self.record())
+        self.assertEqual(whole["seeds"], {"first": 5, "count": 3})
         self.assertEqual(len(rows), 2 * 2 * 3)
         for mode in ("vision", "force"):
             seeds = [(r["repetition"], r["seed"]) for r in rows if r["mode"] == mode and r["character"] == "十"]
@@ -267,8 +263,8 @@ class Write(ProgramTest):
 
     def test_a_run_at_a_rate_too_low_for_writing_ends_cleanly(self):
         for rate in ("10", "12", "20", "50"):
-            self.run_program("write", "一北", "--out", "out", "--rate", rate)
-            self.assertEqual(len(self.summary()), 4)
+            self.run_program("write", "一北", "--out", rate, "--rate", rate)
+            self.assertEqual(len(self.summary(rate)), 4)
 
     def test_a_skilled_writer_has_smaller_errors(self):
         for writer in ("novice", "skilled"):
@@ -289,7 +285,7 @@ class Write(ProgramTest):
         self.run_program("write", "十", "--out", "again", "--device", f"replay:{trace}")
         first, again = self.summary("first")[0], self.summary("again")
         self.assertEqual([row["mode"] for row in again], ["force"])
-        for field in ("strokes_completed", "rms_error_mm", "max_error_mm", "time_s"):
+        for field in ("strokes_completed", "rms_error_mm", "max_error_mm", "writing_time_s"):
             self.assertAlmostEqual(again[0][field], first[field], places=6)
         lines = [path.read_text().count("\n") for path in (trace, self.directory / "again" / trace.name)]
         self.assertEqual(lines[0], lines[1])
@@ -299,14 +295,15 @@ class Write(ProgramTest):
         done = self.run_program("write", "十人", "--out", "again", "--device", "replay:first/page-1-force-1.csv")
         self.assertEqual(done.stderr, "")
         for first, again in zip(self.summary("first"), self.summary("again")):
-            for field in ("strokes_completed", "rms_error_mm", "max_error_mm", "time_s"):
+            for field in ("strokes_completed", "rms_error_mm", "max_error_mm", "writing_time_s"):
                 self.assertAlmostEqual(again[field], first[field], places=6)
         self.assertFalse(list((self.directory / "again").glob("page-*")), "it is the trace that was given")
         for trace, text in (("01-十", "十"), ("02-人", "人"), ("02-人", "十人")):
-            done = self.run_program("write", text, "--out", "other", "--device", f"replay:first/{trace}-force.csv")
+            done = self.run_program("write", text, "--out", "other", "--force",
+                                    "--device", f"replay:first/{trace}-force.csv")
             self.assertIn("with the TEXT and the page options with which it was recorded", done.stderr)
             for row in self.summary("other"):
-                self.assertEqual((row["strokes_completed"], row["time_s"]), (0, None))
+                self.assertEqual((row["strokes_completed"], row["writing_time_s"]), (0, None))
             if len(text) == 1:  # on a page of another text it is written elsewhere
                 self.assertGreater(self.summary("other")[0]["rms_error_mm"], 10.0)
                 self.assertLess(self.summary("other")[0]["contour"], 0.01)
@@ -316,7 +313,7 @@ class Write(ProgramTest):
 
     def test_where_no_character_is_completed_more_repetitions_are_not_advised(self):
         for repeat, pairs in (("1", "1 pair"), ("2", "2 pairs")):
-            done = self.run_program("write", "永", "--out", "out", "--rules", "wang2006", "--repeat", repeat)
+            done = self.run_program("write", "永", "--out", repeat, "--rules", "wang2006", "--repeat", repeat)
             self.assertIn("\nno character was completed in both modes: no effect of force to show\n"
                           f"{pairs} omitted: not every stroke was completed\n", done.stdout)
 
