@@ -9,11 +9,11 @@ if [[ ! -f build/CMakeCache.txt ]]; then  # a build directory of your own keeps 
   cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_TESTS=OFF -DCALLIGRAPHY_EXAMPLES=OFF
 fi
 cmake --build build --target calligraphy_program
-build/tools/calligraphy write 北京航空 --out out "$@"
+build/tools/calligraphy write 北京航空 --out demo --force "$@"
 
 cat << END
 
-In $PWD/out:
+In $PWD/demo, which the next run of this script replaces:
   NN-CHARACTER-MODE.svg        the page: template blue, active character yellow, trace green
   NN-CHARACTER-MODE-force.svg  force over time
   NN-CHARACTER-MODE.csv        the trace, tick by tick

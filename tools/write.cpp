@@ -375,9 +375,9 @@ void add_write(CLI::App& program) {
                              "plot and a trace of the first repetition; of a page of several characters a trace too.");
   command->footer(
       "calligraphy write 永和 -o out                       # without and with force\n"
-      "calligraphy write 永 --repeat 20 -o out             # what force changes\n"
-      "calligraphy write 福 --characters hanzi.set -o out  # made by `import`\n"
-      "calligraphy write 永 --device phantom --wire-profile mine.profile -o out\n"
+      "calligraphy write 永 --repeat 20 -o twenty          # what force changes\n"
+      "calligraphy write 福 --characters hanzi.set -o fu   # made by `import`\n"
+      "calligraphy write 永 --device phantom --wire-profile mine.profile -o mine\n"
       "# mine.profile: see `calligraphy help devices profile`");
   const auto options = std::make_shared<WriteArguments>();
   command
