@@ -9,18 +9,22 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/model/point.hpp>
 
 #include "base/require.hpp"
 #include "gnuplot.hpp"
 #include "process.hpp"
 #include "svg.hpp"
+#include "thinned.hpp"
 
 namespace calligraphy {
 namespace {
 
 constexpr int plot_width = 900, plot_height = 620;         // [px]
 constexpr double panel_left = 0.095, panel_right = 0.975;  // of the panels, share of the width
-constexpr std::size_t buckets = 2000;                      // two points each
+constexpr std::size_t buckets = 2000;                      // two points each, at most
+constexpr double panel_height = 0.35;                      // share of the height
+constexpr double finest_line = 0.25;                       // how far a curve may be drawn beside its values [px]
 
 /// A time during which a stroke was being written [s].
 struct Band {
@@ -67,13 +71,38 @@ Signals signals_of(const Recording& recording, int character) {
   return signals;
 }
 
-/// The curve as a data block, with the smallest and the largest sample of every bucket, so that no peak is lost.
-std::string data_block(const std::vector<double>& time, const Signal& signal) {
-  std::string text = "$" + std::string(signal.name) + " << END\n";
+/// A range of values with a margin, which contains zero.
+struct Range {
+  double low, high;
+};
+
+Range range_of(std::span<const Signal> curves) {
+  double low = 0.0, high = 0.0;
+  for (const Signal& curve : curves) {
+    for (const double value : curve.values) {
+      if (!std::isfinite(value)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  if (low == high) high = 1.0;
+  const double margin = 0.06 * (high - low);
+  return {low < 0.0 ? low - margin : 0.0, high > 0.0 ? high + margin : 0.0};
+}
+
+/// To a microsecond or a micronewton.
+double rounded(double value) { return std::round(value * 1e6) / 1e6; }
+
+/// The curve as a data block: the smallest and the largest sample of every bucket, so that no peak is lost, without
+/// points that cannot be told from the line between their neighbours.
+std::string data_block(const std::vector<double>& time, const Signal& signal, const Range& range) {
+  const double width = plot_width * (panel_right - panel_left), height = plot_height * panel_height;
+  const Point pixels(width / std::max(time.back() - time.front(), 1e-3), height / (range.high - range.low));
   const std::size_t bucket = std::max<std::size_t>(1, (time.size() + buckets - 1) / buckets);
   const auto& values = signal.values;
-  const auto point = [&](std::size_t i) {
-    if (std::isfinite(values[i])) text += number_text(time[i]) + " " + number_text(values[i]) + "\n";
+  std::vector<Point> line;
+  const auto add = [&](std::size_t i) {
+    if (std::isfinite(values[i])) line.push_back(pixels.cwiseProduct(Point(time[i], values[i])));
   };
   for (std::size_t begin = 0; begin < time.size(); begin += bucket) {
     std::size_t low = begin, high = begin;
@@ -81,8 +110,14 @@ std::string data_block(const std::vector<double>& time, const Signal& signal) {
       if (!(values[i] >= values[low])) low = i;
       if (!(values[i] <= values[high])) high = i;
     }
-    point(std::min(low, high));
-    if (low != high) point(std::max(low, high));
+    add(std::min(low, high));
+    if (low != high) add(std::max(low, high));
+  }
+  std::string text = "$" + std::string(signal.name) + " << END\n";
+  if (!line.empty()) line = thinned(line, finest_line);
+  for (const Point& point : line) {
+    const Point value = point.cwiseQuotient(pixels);
+    text += number_text(rounded(value.x())) + " " + number_text(rounded(value.y())) + "\n";
   }
   return text + "END\n";
 }
@@ -112,20 +147,8 @@ std::string band_labels(const std::vector<Band>& bands, double begin, double end
   return text;
 }
 
-/// The range from the smallest to the largest value, zero included, and a little beyond.
-std::string y_range(std::span<const Signal> curves) {
-  double low = 0.0, high = 0.0;
-  for (const Signal& curve : curves) {
-    for (const double value : curve.values) {
-      if (!std::isfinite(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  }
-  if (low == high) high = 1.0;
-  const double margin = 0.06 * (high - low);
-  return "set yrange [" + number_text(low < 0.0 ? low - margin : 0.0) + ":" +
-         number_text(high > 0.0 ? high + margin : 0.0) + "]\n";
+std::string y_range(const Range& range) {
+  return "set yrange [" + number_text(range.low) + ":" + number_text(range.high) + "]\n";
 }
 
 /// The text of a key as gnuplot takes it.
@@ -140,7 +163,10 @@ std::string script(const Signals& signals, const Language& language) {
   const double begin = signals.time.front();
   const double end = std::max(signals.time.back(), begin + 1e-3);
   std::string text = gnuplot::svg_terminal(plot_width, plot_height);
-  for (const Signal& signal : signals.curves) text += data_block(signals.time, signal);
+  const std::span<const Signal> curves(signals.curves);
+  const Range in_plane = range_of(curves.first(3)), normal = range_of(curves.last(1));
+  for (const Signal& signal : curves.first(3)) text += data_block(signals.time, signal, in_plane);
+  text += data_block(signals.time, curves.back(), normal);
   text += "set lmargin at screen " + number_text(panel_left) + "\nset rmargin at screen " + number_text(panel_right) +
           "\n" + "set xrange [" + number_text(begin) + ":" + number_text(end) + "]\n" + band_objects(signals.bands) +
           "set grid back linetype 1 linecolor rgb '#dcdcdc' linewidth 0.5\n"
@@ -153,14 +179,14 @@ std::string script(const Signals& signals, const Language& language) {
       quoted("plot.in_plane_force", language) +
       " at screen 0.022, graph 0.5 center rotate\n"
       "set key horizontal at screen 0.975, 0.942 right top samplen 2\n" +
-      band_labels(signals.bands, begin, end) + y_range(std::span(signals.curves).first(3)) +
+      band_labels(signals.bands, begin, end) + y_range(in_plane) +
       "plot $size with lines linewidth 1.6 linecolor rgb '#555555' title '|F|', "
       "$fx with lines linewidth 1.3 linecolor rgb '#0072b2' title 'Fx', "
       "$fy with lines linewidth 1.3 linecolor rgb '#d55e00' title 'Fy'\n"
       "unset label\nset tmargin at screen 0.47\nset bmargin at screen 0.12\n"
       "set format x '%g'\nset xlabel " +
       quoted("plot.time", language) + "\nunset key\nset label " + quoted("plot.normal_force", language) +
-      " at screen 0.022, graph 0.5 center rotate\n" + y_range(std::span(signals.curves).last(1)) +
+      " at screen 0.022, graph 0.5 center rotate\n" + y_range(normal) +
       "plot $normal with lines linewidth 1.3 linecolor rgb '#222222' notitle\n"
       "unset multiplot\n";
   return text;

@@ -1,0 +1,131 @@
+#include "page_results.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/pictures/picture.hpp>
+#include <calligraphy/pictures/plot.hpp>
+#include <calligraphy/practice/recording_file.hpp>
+#include <calligraphy/practice/score.hpp>
+
+#include "options.hpp"
+
+namespace calligraphy::tools {
+namespace {
+
+constexpr double millimetres = 1e3;
+
+/// A cell of a table, empty for what was not measured.
+std::string cell(double value, int decimals) { return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : ""; }
+
+}  // namespace
+
+std::vector<Result> results_of(const Recording& recording, const PageInRun& where, const JudgeTolerances& tolerances) {
+  const RecordingSetup& setup = *recording.setup;
+  const double begin = recording.samples.empty() ? 0.0 : recording.samples.front().time;
+  std::vector<Result> results;
+  for (CharacterScore& score : score_page(setup.page, recording, tolerances)) {
+    Result result;
+    const auto index = static_cast<int>(results.size());
+    score.mean_pressure *= setup.mapping.scale;
+    score.peak_force *= setup.mapping.scale;
+    score.max_force_step *= setup.mapping.scale;
+    for (PenDownScore& pen_down : score.pen_downs) {
+      pen_down.mean_pressure *= setup.mapping.scale;
+      pen_down.motion.begin -= begin;
+    }
+    std::vector<float> ticks;
+    for (const RecordedSample& sample : recording.samples) {
+      if (sample.character == index) ticks.push_back(sample.tick_ns);
+    }
+    result.tick_p50 = percentile(ticks, 0.5);
+    result.tick_p999 = percentile(ticks, 0.999);
+    result.score = std::move(score);
+    result.position = where.first_position + index;
+    result.mode = setup.mode;
+    result.repetition = where.repetition;
+    result.seed = where.seed;
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+void draw_page(const Recording& recording, const PageInRun& where, const PictureOptions& options,
+               OutputDirectory& out) {
+  const RecordingSetup& setup = *recording.setup;
+  const char* const mode = setup.mode == FeedbackMode::vision ? "mode.vision_only" : "mode.vision_and_force";
+  for (std::size_t i = 0; i < setup.page.characters.size(); ++i) {
+    const char32_t code = setup.page.characters[i].character.code;
+    const auto index = static_cast<int>(i);
+    const std::string stem =
+        fmt::format("{:02}-{}-{}", where.first_position + index, name_in_file(code), to_string(setup.mode));
+    const std::string title =
+        fmt::format("{}, {}, {}", encode_utf8(code), options.language.text(mode), setup.device.model);
+    const auto draw = [&](const std::string& name, const auto& picture) {
+      std::string text;
+      try {
+        text = picture();
+      } catch (const Error& error) {
+        return spdlog::warn("{} is not drawn: {}", name, error.what());
+      }
+      out.write(name, text);
+    };
+    draw(stem + ".svg",
+         [&] { return page_picture(setup.page, recording, index, title, options.style, options.language); });
+    const bool was_reached = std::any_of(recording.samples.begin(), recording.samples.end(),
+                                         [index](const RecordedSample& sample) { return sample.character == index; });
+    const bool has_force = was_reached && setup.mode == FeedbackMode::force;  // otherwise the page was aborted before
+    if (!options.has_plots || !has_force) continue;
+    draw(stem + "-force.svg", [&] { return force_plot(recording, index, title, options.language); });
+  }
+}
+
+bool can_plot() {
+  const bool can = gnuplot_available();
+  if (!can) spdlog::warn("gnuplot is not available: forces are not plotted");
+  return can;
+}
+
+std::string strokes_table(const std::vector<Result>& results) {
+  std::string text =
+      "position,character,mode,repetition,seed,stroke,completed,begin_s,end_s,coverage,rms_error_mm,max_error_mm,"
+      "overall_error_mm,dtw_distance_mm,path_length_mm,mean_speed_mm_per_s,peak_speed_mm_per_s,velocity_peaks,smoothness,"
+      "mean_pressure_N\n";
+  for (const Result& result : results) {
+    const CharacterScore& score = result.score;
+    for (std::size_t i = 0; i < score.strokes.size(); ++i) {
+      const StrokeScore& stroke = score.strokes[i];
+      text += fmt::format("{},{},{},{},{},{},{}", result.position, encode_utf8(score.character), to_string(result.mode),
+                          result.repetition, result.seed, i + 1, stroke.completed ? 1 : 0);
+      const PenDownScore none;
+      const bool is_written = stroke.pen_down >= 0;
+      const PenDownScore& pen = is_written ? score.pen_downs[static_cast<std::size_t>(stroke.pen_down)] : none;
+      text += "," + (is_written ? cell(pen.motion.begin, 3) : "") + "," + (is_written ? cell(pen.motion.begin + pen.motion.duration, 3) : "");
+      text += "," + cell(stroke.coverage, 4);
+      for (const double error : {stroke.rms_error, stroke.max_error, stroke.overall_error, stroke.dtw_distance}) {
+        text += "," + cell(error * millimetres, 4);
+      }
+      text += "," + (is_written ? cell(pen.motion.path_length * millimetres, 3) : "");
+      text += "," + (is_written ? cell(pen.motion.mean_speed * millimetres, 2) : "");
+      text += "," + (is_written ? cell(pen.motion.peak_speed * millimetres, 2) : "");
+      text += "," + (is_written ? std::to_string(pen.motion.velocity_peaks) : "");
+      text += "," + (is_written ? cell(pen.motion.smoothness, 3) : "");
+      text += "," + (is_written ? cell(pen.mean_pressure, 4) : "") + "\n";
+    }
+  }
+  return text;
+}
+
+std::string ticks_table(const Recording& recording) {
+  std::ostringstream out;
+  write_ticks(out, recording);
+  return out.str();
+}
+
+}  // namespace calligraphy::tools
