@@ -15,7 +15,7 @@ namespace calligraphy::tools {
 struct ArgumentText {
   std::vector<std::string> names;    ///< "-o" and "--out"; of a positional argument "TEXT"
   std::string value;                 ///< what its value is, as in "DIR"; empty: a flag, which has none
-  std::vector<std::string> choices;  ///< values that it may have; of "replay:FILE" the user chooses the file
+  std::vector<std::string> choices;  ///< values that it may have
   bool has_other_values = true;      ///< than `choices`
   std::string description;
   std::string default_value;  ///< empty: none, or told in the description

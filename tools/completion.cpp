@@ -14,20 +14,6 @@ bool may_be_file(const ArgumentText& argument) {
 
 bool is_directory(const ArgumentText& argument) { return argument.value == "DIR"; }
 
-/// A list of words, of which "replay:FILE" is only "replay:".
-struct Words {
-  std::vector<std::string> all, before_file;
-
-  explicit Words(const std::vector<std::string>& choices) {
-    const std::string file = "FILE";
-    for (const std::string& choice : choices) {
-      const bool has_file = choice.ends_with(":" + file);
-      all.push_back(choice.substr(0, choice.size() - (has_file ? file.size() : 0)));
-      if (has_file) before_file.push_back(all.back());
-    }
-  }
-};
-
 std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
 /// With the single quotes of a shell, where `escape` stands for one.
@@ -82,12 +68,7 @@ std::string bash_words(const std::vector<std::string>& words) {
 std::string bash_values(const ArgumentText& argument) {
   if (is_directory(argument)) return "compopt -o dirnames";
   if (argument.choices.empty()) return may_be_file(argument) ? "compopt -o default" : ":";
-  const Words words(argument.choices);
-  std::string text = bash_words(words.all);
-  for (const std::string& word : words.before_file) {
-    text = fmt::format("if [[ $current == {}* ]]; then compopt -o default; else {}; fi", word, text);
-  }
-  return text + (may_be_file(argument) ? "; compopt -o filenames; _calligraphy_offer -f" : "");
+  return bash_words(argument.choices) + (may_be_file(argument) ? "; compopt -o filenames; _calligraphy_offer -f" : "");
 }
 
 /// The words that may stand there, options aside.
@@ -125,7 +106,6 @@ std::string bash(const CommandText& program) {
 _calligraphy_offer() {
   local word
   while IFS= read -r word; do COMPREPLY+=("${word#"$before"}"); done < <(compgen "$@" -- "$current")
-  if [[ ${#COMPREPLY[@]} == 1 && ${COMPREPLY[0]} == *: ]]; then compopt -o nospace; fi
 }
 _calligraphy() {
   local at=$COMP_CWORD current=${COMP_WORDS[COMP_CWORD]} before= previous command=calligraphy word
@@ -225,19 +205,10 @@ std::string zsh(const CommandText& program) {
   std::string text = R"(#compdef calligraphy
 # Completion of calligraphy in zsh. Made by `calligraphy completion zsh`.
 
-# Offers words; for FILE, alone or after a colon, file names.
+# Offers words, and for FILE file names.
 _calligraphy_values() {
-  local -a words prefixes
   local failed=1
-  words=(${${@:#FILE}:#*:FILE})
-  prefixes=(${${(M)@:#*:FILE}%FILE})
-  if [[ $PREFIX == *:* ]] && (( $prefixes[(Ie)${PREFIX%%:*}:] )); then
-    compset -P 1 '*:'
-    _files
-    return
-  fi
-  compadd -- $words && failed=0
-  (( $#prefixes )) && compadd -S '' -- $prefixes && failed=0
+  compadd -- ${@:#FILE} && failed=0
   (( $@[(Ie)FILE] )) && _files && failed=0
   return failed
 }
@@ -256,10 +227,8 @@ std::string fish_quoted(const std::string& text) { return quoted(text, "\\'"); }
 
 /// The choices, each with an empty description: otherwise fish would repeat that of the option.
 std::string fish_words(const ArgumentText& argument) {
-  const Words words(argument.choices);
   std::string text;
-  for (const std::string& word : words.all) text += (text.empty() ? "" : " ") + word + "\\t";
-  for (const std::string& word : words.before_file) text += " (__calligraphy_files " + word + ")";
+  for (const std::string& word : argument.choices) text += (text.empty() ? "" : " ") + word + "\\t";
   return text;
 }
 
@@ -303,15 +272,6 @@ function __calligraphy_at
         end
     end
     test "$at" = "$argv[1]"
-end
-# Files, after the beginning of a word.
-function __calligraphy_files
-    set -l word (commandline -ct)
-    string match -q -- "$argv[1]*" $word; or return
-    for file in (string replace -- $argv[1] '' $word)*
-        test -d $file; and set file $file/
-        printf '%s%s\n' $argv[1] $file
-    end
 end
 complete -c calligraphy -f
 )" + text;

@@ -25,8 +25,7 @@
 namespace calligraphy::tools {
 namespace {
 
-constexpr std::array<std::pair<const char*, DeviceKind>, 4> kinds = {{{"simulated", DeviceKind::simulated},
-                                                                      {"replay", DeviceKind::replay},
+constexpr std::array<std::pair<const char*, DeviceKind>, 3> kinds = {{{"simulated", DeviceKind::simulated},
                                                                       {"phantom", DeviceKind::phantom},
                                                                       {"openhaptics", DeviceKind::openhaptics}}};
 
@@ -37,7 +36,7 @@ bool is_profile(const std::string& name) {
 
 [[noreturn]] void refuse(const std::string& text, const std::string& reason) {
   throw UsageError(
-      fmt::format("--device: {}: {}; expected [simulated:]NAME with NAME one of {}, replay:FILE, phantom[:SERIAL] or "
+      fmt::format("--device: {}: {}; expected [simulated:]NAME with NAME one of {}, phantom[:SERIAL] or "
                   "openhaptics[:NAME]; a device of your own is driven from C++, C or Python (docs/own-backend.md)",
                   text, reason, device_names()));
 }
@@ -65,7 +64,6 @@ DeviceChoice device_choice(const std::string& text) {
   if (kind->second == DeviceKind::simulated && !is_profile(which)) {
     refuse(text, which.empty() ? "no profile given" : "unknown profile");
   }
-  if (kind->second == DeviceKind::replay && which.empty()) refuse(text, "no file given");
   return {kind->second, which, {}, {}};
 }
 

@@ -12,19 +12,18 @@ namespace calligraphy::tools {
 
 enum class DeviceKind {
   simulated,   ///< a profile
-  replay,      ///< a trace recorded by `write`
   phantom,     ///< over USB
   openhaptics  ///< through the vendor's runtime
 };
 
 struct DeviceChoice {
   DeviceKind kind = DeviceKind::simulated;
-  std::string which;         ///< profile, file, serial number or name; empty: the only device present
+  std::string which;         ///< profile, serial number or name; empty: the only device present
   std::string wire_profile;  ///< Phantom only: name or file; empty: environment variable CALLIGRAPHY_WIRE_PROFILE
   std::string model;         ///< Phantom only: arm model; empty: touch
 };
 
-/// "simulated:NAME" or a profile's bare name, "replay:FILE", "phantom[:SERIAL]", "openhaptics[:NAME]".
+/// "simulated:NAME" or a profile's bare name, "phantom[:SERIAL]", "openhaptics[:NAME]".
 /// @throws UsageError listing the accepted forms
 DeviceChoice device_choice(const std::string& text);
 

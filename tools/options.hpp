@@ -29,7 +29,7 @@ std::string character_label(char32_t code);
 /// The character, or "U+002F" if it is unsuitable for a file name.
 std::string name_in_file(char32_t code);
 
-/// Accepts everything; completion offers these values, and file names in place of the FILE in "replay:FILE".
+/// Accepts everything; completion offers these values.
 CLI::Validator such_as(const std::vector<std::string>& values);
 
 /// Adds --device [simulated:]NAME, whose default is the initial value of `device`.

@@ -130,12 +130,30 @@ void OutputDirectory::explain(const Json& facts) {
   write_record();
 }
 
-void OutputDirectory::write(const std::string& name, std::string_view content) {
+void OutputDirectory::write(const std::string& name, std::string_view content) { write_file(reserve(name), content); }
+
+fs::path OutputDirectory::reserve(const std::string& name) {
   if (std::find(files_.begin(), files_.end(), name) == files_.end()) {
     files_.push_back(name);
     write_record();
   }
-  write_file(path_ / name, content);
+  return path_ / name;
+}
+
+void OutputDirectory::rename(const std::string& from, const std::string& to) {
+  std::error_code error;
+  fs::rename(path_ / from, reserve(to), error);
+  if (error) throw FileError((path_ / from).string(), "cannot be renamed to " + to + ": " + error.message());
+  std::erase(files_, from);
+  write_record();
+}
+
+void OutputDirectory::remove(const std::string& name) {
+  std::error_code error;
+  fs::remove(path_ / name, error);
+  if (error) throw FileError((path_ / name).string(), "cannot be removed: " + error.message());
+  std::erase(files_, name);
+  write_record();
 }
 
 void OutputDirectory::keep(const Json& results) {

@@ -33,6 +33,12 @@ class OutputDirectory {
   void explain(const nlohmann::ordered_json& facts);
   /// Writes the whole file or none. @throws FileError
   void write(const std::string& name, std::string_view content);
+  /// Where a file is to be written that grows; the record lists it. @throws FileError
+  std::filesystem::path reserve(const std::string& name);
+  /// Gives such a file another name, in place of one that is there. @throws FileError
+  void rename(const std::string& from, const std::string& to);
+  /// Removes such a file. @throws FileError
+  void remove(const std::string& name);
   /// Adds results to the record, which then stays. What explain() has said is not changed. @throws FileError
   void keep(const nlohmann::ordered_json& results);
   /// Says in the record that the run is finished. @throws FileError

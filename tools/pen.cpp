@@ -51,9 +51,6 @@ Pen::Pen(const PenOptions& options) : options_(options) {
     case DeviceKind::simulated:
       capabilities_ = chosen_device(options.device.which);
       break;
-    case DeviceKind::replay:
-      capabilities_ = chosen_device(options.like, "--like");
-      break;
     case DeviceKind::phantom:
     case DeviceKind::openhaptics:
       device_ = open_device(options.device);
@@ -72,21 +69,7 @@ Recording Pen::write(const PracticePage& page, const SessionOptions& session) {
     interrupt_->check();
     if (session.progress) session.progress(share);
   };
-  return is_replay() ? replay(page, until_ctrl_c) : write_page(page, until_ctrl_c);
-}
-
-Recording Pen::replay(const PracticePage& page, const SessionOptions& session) const {
-  const Recording trace = read_recording(options_.device.which);
-  auto device = [&] {
-    try {
-      return ReplayDevice(device_states(trace, *session.mapping), capabilities_);
-    } catch (const ValueError& error) {
-      throw FormatError(options_.device.which + ": " + error.what());
-    }
-  }();
-  SessionOptions at_its_rate = session;
-  at_its_rate.renderer.servo_rate = trace.rate;
-  return replay_page(page, device, at_its_rate);
+  return write_page(page, until_ctrl_c);
 }
 
 Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
@@ -100,6 +83,7 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
   options.mapping = session.mapping;
   options.peak_force = options_.peak_force;
   options.timeout = options_.timeout;
+  options.keep = session.keep;
   options.watch = [&](const LiveView& view) {
     if (session.progress) session.progress(view.progress);
     if (view.servo.fault != told && view.servo.fault != DeviceFault::none) {

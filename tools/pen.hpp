@@ -1,4 +1,4 @@
-// Who writes: the simulated writer, a recorded trace, or a person with a device.
+// Who writes: the simulated writer, or a person with a device.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,6 @@ namespace calligraphy::tools {
 
 struct PenOptions {
   DeviceChoice device;
-  std::string like = "desktop";  ///< profile that supplies limits and workspace for a recorded trace
   double peak_force = std::numeric_limits<double>::infinity();  ///< limit in addition to the device's own [N]
   double timeout = 600.0;                                       ///< time after which a person's page is aborted [s]
   Language language;                                            ///< of what a person is told to do
@@ -36,16 +35,15 @@ class Pen {
 
   /// True if a person holds the device and writes in real time.
   bool is_person() const noexcept { return device_ != nullptr; }
-  bool is_replay() const noexcept { return options_.device.kind == DeviceKind::replay; }
 
-  /// Writes a page. Mode, renderer, mapping and progress of the session apply to every kind of pen, the rest to the
-  /// simulated writer. @throws FileError, FormatError, DeviceError
+  /// Writes a page. Mode, renderer, mapping, progress and keep of the session apply to both, the rest to the simulated
+  /// writer. @throws DeviceError, and what the session's functions throw
   Recording write(const PracticePage& page, const SessionOptions& session);
 
   /// What stops the writing of a person, as in "space, Esc or Ctrl-C".
   std::string stop_keys() const { return tools::stop_keys(*stop_key_, options_.language); }
   /// True if Ctrl-C or the stop key was pressed since the device was opened. write() then throws an Error for a
-  /// simulated writer or a trace, and returns what was written so far for a person.
+  /// simulated writer, and returns what was written so far for a person.
   bool interrupted() const noexcept { return interrupt_->asked() || (stop_key_ && stop_key_->pressed()); }
   bool stopped_by_key() const noexcept { return interrupted() && !interrupt_->asked(); }
   /// Servo loop statistics per page; empty unless a person writes.
@@ -54,7 +52,6 @@ class Pen {
   const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
  private:
-  Recording replay(const PracticePage& page, const SessionOptions& session) const;
   Recording live(const PracticePage& page, const SessionOptions& session);
   bool is_new(const std::string& warning);
 

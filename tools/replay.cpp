@@ -1,7 +1,8 @@
-// calligraphy replay: replays pen traces of people on the simulated device and reports on their writing.
+// calligraphy replay: replays recordings, and pen traces of people on the simulated device.
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,11 +20,14 @@
 
 #include "character_source.hpp"
 #include "commands.hpp"
+#include "gzip_file.hpp"
 #include "interrupt.hpp"
+#include "kept_recording.hpp"
 #include "options.hpp"
 #include "output_directory.hpp"
 #include "output_file.hpp"
 #include "progress.hpp"
+#include "replay_recordings.hpp"
 #include "replay_report.hpp"
 #include "run_record.hpp"
 
@@ -46,6 +50,7 @@ struct ReplayArguments {
   StrokeStyle style = StrokeStyle::ink;  ///< of the templates
   Language language;
   bool recognise = false;
+  bool ticks = false;
   bool json = false;
 };
 
@@ -58,7 +63,8 @@ struct Chosen {
 std::vector<Chosen> chosen_traces(const ReplayArguments& options) {
   std::vector<Chosen> chosen;
   int position = 0;
-  for (PenTrace& trace : read_pen_traces(options.traces)) chosen.push_back({++position, std::move(trace)});
+  GzipReader in(options.traces);
+  for (PenTrace& trace : read_pen_traces(in, options.traces)) chosen.push_back({++position, std::move(trace)});
   if (options.only) {
     const auto is_there = [&chosen](char32_t code) {
       return std::any_of(chosen.begin(), chosen.end(),
@@ -77,6 +83,11 @@ std::u32string text_of(const std::vector<Chosen>& traces) {
     if (text.find(each.trace.character) == std::u32string::npos) text += each.trace.character;
   }
   return text;
+}
+
+JudgeTolerances tolerances_of(const std::string& leniency) {
+  if (leniency == "lenient") return JudgeTolerances::lenient();
+  return leniency == "strict" ? JudgeTolerances::strict() : JudgeTolerances::normal();
 }
 
 class ReplayRun {
@@ -147,11 +158,6 @@ class ReplayRun {
     return forms;
   }
 
-  JudgeTolerances tolerances() const {
-    if (options_.leniency == "lenient") return JudgeTolerances::lenient();
-    return options_.leniency == "strict" ? JudgeTolerances::strict() : JudgeTolerances::normal();
-  }
-
   void recognise(const std::vector<Chosen>& traces, const CharacterIndex& index) {
     for (const Chosen& each : traces) {
       report_.recognised.push_back(
@@ -165,7 +171,7 @@ class ReplayRun {
     for (const StoredCharacter& form : forms) accepted.push_back(form.character());
     const std::vector<PenPath> paths = pen_paths(chosen.trace);
     Replayed result;
-    result.match = match_strokes(accepted, paths, tolerances(), &index);
+    result.match = match_strokes(accepted, paths, tolerances_of(options_.leniency), &index);
     const auto read_as = static_cast<std::size_t>(result.match.accepted);
     const Character& character = accepted[read_as];
     result.order = std::string(forms[read_as].order());
@@ -203,22 +209,47 @@ class ReplayRun {
   ReplayReport report_;
 };
 
+/// Options that apply only to pen traces.
+constexpr const char* of_traces[] = {"--characters", "--only",         "--order",    "--device",
+                                     "--page",       "--motion-scale", "--renderer", "--recognise"};
+
+/// Replays a recording, those of a run, or pen traces.
+void replay(const ReplayArguments& options, const CLI::App& command) {
+  const std::filesystem::path path = options.traces;
+  const bool is_run = std::filesystem::is_directory(path);
+  if (!is_run && !is_recording(path)) {
+    if (options.ticks) throw UsageError("--ticks: applies only to recordings");
+    return ReplayRun(options).replay();
+  }
+  for (const char* const option : of_traces) {
+    if (command.get_option(option)->count() > 0) {
+      throw UsageError(fmt::format("{}: applies only to pen traces, and {} is of recordings", option, options.traces));
+    }
+  }
+  if (options.ticks && options.out.directory.empty()) throw UsageError("--ticks: needs --out DIR");
+  replay_recordings({is_run ? recordings_in(path) : std::vector{path}, options.out, tolerances_of(options.leniency),
+                     options.style, options.language, options.ticks, options.json});
+}
+
 }  // namespace
 
 void add_replay(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "replay",
-      "Replay recorded pen traces of people on the simulated device. Reports the order and direction in which they "
-      "wrote "
-      "and the forces of the guidance. With --out DIR, also writes a picture of each trace and replay.json.");
+      "Replay a recording, the recordings of a run of `write`, or pen traces of people. The forces of a recording are "
+      "made again from what came in, and the page is scored. Pens in traces move the simulated device; the report is "
+      "of the order and direction in which they wrote and of the forces of the guidance. With --out DIR, also writes "
+      "pictures and replay.json.");
   command->footer(
+      "calligraphy replay out         # of write --out out\n"
       "calligraphy replay pens.txt    # for its format see docs/pen-traces.md\n"
       "calligraphy replay pens.txt --only 永 --characters hanzi.set --out out\n"
       "# hanzi.set: see `calligraphy help import`");
   const auto options = std::make_shared<ReplayArguments>();
-  command->add_option("TRACES", options->traces, "Pen traces in the format of docs/pen-traces.md")
+  command->add_option("WHAT", options->traces,
+                      "A recording or pen traces, compressed by gzip or not, or the directory of a run")
       ->required()
-      ->type_name("FILE");
+      ->type_name("PATH");
   add_characters_option(*command, options->characters);
   add_out_directory(*command, options->out, "pictures and JSON", replay_file);
   command->add_option("--only", options->only, "Replay only traces of these characters")->type_name("TEXT");
@@ -243,8 +274,11 @@ void add_replay(CLI::App& program) {
       ->disable_flag_override();
   add_language_option(*command, options->language);
   add_lines_flag(*command, options->style);
+  command
+      ->add_flag("--ticks", options->ticks, "Of recordings, also write the ticks as comma-separated values into DIR")
+      ->disable_flag_override();
   command->add_flag("--json", options->json, "Print JSON instead of the table")->disable_flag_override();
-  command->callback([options] { ReplayRun(*options).replay(); });
+  command->callback([options, command] { replay(*options, *command); });
 }
 
 }  // namespace calligraphy::tools

@@ -16,21 +16,19 @@
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/pictures/picture.hpp>
-#include <calligraphy/pictures/plot.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/recording.hpp>
-#include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 
 #include "character_source.hpp"
 #include "commands.hpp"
 #include "counted.hpp"
+#include "kept_recording.hpp"
 #include "options.hpp"
 #include "output_directory.hpp"
 #include "output_file.hpp"
+#include "page_results.hpp"
 #include "pen.hpp"
-#include "practice/session_tick.hpp"
 #include "progress.hpp"
 #include "run_record.hpp"
 #include "servo_report.hpp"
@@ -48,7 +46,6 @@ struct WriteArguments {
   std::string order;
   std::string device = "simulated:desktop";
   std::optional<std::string> writer;
-  std::optional<std::string> like;
   std::optional<double> peak_force;
   std::optional<double> timeout;
   std::string wire_profile;
@@ -64,6 +61,7 @@ struct WriteArguments {
   std::optional<std::string> method;
   std::optional<double> tolerance;
   Language language;
+  bool ticks = false;
   bool json = false;
 };
 
@@ -104,18 +102,13 @@ PenOptions chosen_pen(const WriteArguments& options) {
     if (given) throw UsageError(fmt::format("{} with --device {}: {}", option, options.device, reason));
   };
   refuse(options.writer && kind != DeviceKind::simulated, "--writer", "applies only to the simulated writer");
-  refuse(options.like && kind != DeviceKind::replay, "--like", "applies only to replay:FILE");
-  refuse(options.rate && kind == DeviceKind::replay, "--rate", "the trace determines the rate");
   refuse(options.rate && kind == DeviceKind::openhaptics, "--rate", "the vendor's scheduler determines the rate");
-  refuse(options.repeat > 1 && kind == DeviceKind::replay, "--repeat", "every repetition would be the same");
-  refuse(options.mode == "both" && kind == DeviceKind::replay, "--mode both", "a trace was written in one mode");
   refuse(options.timeout && !is_person, "--timeout", "applies only to a real device");
   refuse(!options.wire_profile.empty() && kind != DeviceKind::phantom, "--wire-profile",
          "applies only to phantom[:SERIAL]");
   refuse(!options.model.empty() && kind != DeviceKind::phantom, "--model", "applies only to phantom[:SERIAL]");
   pen.device.wire_profile = options.wire_profile;
   pen.device.model = options.model;
-  pen.like = options.like.value_or(pen.like);
   pen.peak_force = options.peak_force.value_or(pen.peak_force);
   pen.timeout = options.timeout.value_or(pen.timeout);
   pen.language = options.language;
@@ -150,38 +143,13 @@ std::vector<Sheet> sheets(const std::vector<Character>& characters, const PageLa
   return result;
 }
 
-/// The part of a recording in which a character is active.
-Recording part(const Recording& recording, int character) {
-  Recording result;
-  result.rate = recording.rate;
-  result.page = recording.page;
-  const auto active = [character](const RecordedSample& sample) { return sample.character == character; };
-  std::copy_if(recording.samples.begin(), recording.samples.end(), std::back_inserter(result.samples), active);
-  return result;
-}
-
-Result measure(const CharacterScore& score, const Recording& part) {
-  Result result;
-  result.score = score;
-  std::vector<float> ticks;
-  for (const RecordedSample& sample : part.samples) ticks.push_back(sample.tick_ns);
-  result.tick_p50 = percentile(ticks, 0.5);
-  result.tick_p999 = percentile(ticks, 0.999);
-  return result;
-}
-
-/// "03-北-force".
-std::string file_stem(int position, char32_t code, FeedbackMode mode) {
-  return fmt::format("{:02}-{}-{}", position, name_in_file(code), to_string(mode));
-}
-
 class WriteRun {
  public:
   explicit WriteRun(const WriteArguments& options)
       : options_(options),
         pen_(chosen_pen(options)),
         session_(chosen_session(options, pen_.capabilities())),
-        modes_(chosen_modes(options.mode, !pen_.is_person() && !pen_.is_replay())) {
+        modes_(chosen_modes(options.mode, !pen_.is_person())) {
     summary_.repetitions = options.repeat;
     try {
       // The stable stiffness is lower at a rate below the device's own.
@@ -197,12 +165,8 @@ class WriteRun {
   void write() {
     const auto [set, text] = open_characters(options_.characters, characters_of(options_.text), options_.order);
     sheets_ = sheets(characters_of(set, text, options_.order), options_.page.layout(session_.device));
-    if (pen_.is_replay() && sheets_.size() > 1)
-      throw UsageError("TEXT: does not fit on one page, as a replay requires");
     OutputDirectory out(options_.out.directory, summary_file, options_.out.force);
     explain(out);
-    plots_ = gnuplot_available();
-    if (!plots_) spdlog::warn("gnuplot is not available: forces are not plotted");
     write_all(out);
     if (summary_.results.empty()) return tell_of_interruption("nothing was written");
     const auto order = [](const Result& a, const Result& b) {
@@ -212,7 +176,9 @@ class WriteRun {
     summary_.interrupted = pen_.interrupted();
     summary_.warnings = pen_.warnings();
     if (pen_.is_person()) out.write("servo.json", json(pen_.statistics()));
+    out.write("strokes.csv", strokes_table(summary_.results));
     out.keep(json(summary_));
+    draw(out);
     if (!summary_.interrupted) out.finish();
     report(out);
     if (pen_.interrupted()) tell_of_interruption("results so far are in " + options_.out.directory);
@@ -234,9 +200,9 @@ class WriteRun {
                                   session_.renderer);
     nlohmann::ordered_json law, writer, seeds;
     for (const FeedbackMode mode : modes_) {
-      law[to_string(mode)] = recording_for(sheets_.front().page, renderer, mode, session_.law).law;
+      law[to_string(mode)] = mode == FeedbackMode::vision ? "none" : renderer.law().name;
     }
-    if (!pen_.is_person() && !pen_.is_replay()) {
+    if (!pen_.is_person()) {
       writer = writer_json(options_.writer.value_or("novice"), session_.skill);
       seeds = {{"first", options_.seed}, {"count", sheets_.size() * static_cast<std::size_t>(options_.repeat)}};
     }
@@ -291,46 +257,36 @@ class WriteRun {
                                                           {"mode", language.text(mode)},
                                                           {"keys", pen_.stop_keys()}}));
     }
-    const Recording recording = pen_.write(sheet.page, session_);
-    // For replay:FILE, which cannot begin in the middle of a page. A single character's trace is the page's.
-    const bool several = sheet.page.characters.size() > 1 && !pen_.is_replay() && repetition == 1;
-    if (pen_.is_person() || several) {
-      std::ostringstream trace;
-      write_recording(trace, recording);
-      out.write(fmt::format("page-{}-{}-{}.csv", number + 1, to_string(session_.mode), repetition), trace.str());
+    const std::string name = fmt::format("page-{}-{}-{}", number + 1, to_string(session_.mode), repetition);
+    KeptRecording kept(out, name);
+    // Of a simulated writer the rest can be made again from the seeds.
+    const bool is_kept = pen_.is_person() || repetition == 1;
+    session_.keep = [&](const Recording& recording) {
+      if (is_kept) kept.take(recording);
+    };
+    const PageInRun where = {sheet.first_position, repetition, session_.seed};
+    const Recording recording = [&] {
+      try {
+        return pen_.write(sheet.page, session_);
+      } catch (const Error&) {
+        if (is_kept && pen_.interrupted()) kept.discard();
+        throw;
+      }
+    }();
+    if (is_kept) {
+      kept.finish();
+      if (options_.ticks) out.write(name + "-ticks.csv", ticks_table(recording));
+      if (repetition == 1) drawn_.push_back({kept.name(), where});
     }
-    const std::vector<CharacterScore> scores = score_page(sheet.page, recording);
-    for (std::size_t i = 0; i < scores.size(); ++i) {
-      const int index = static_cast<int>(i);
-      const Recording own = part(recording, index);
-      Result result = measure(scores[i], own);
-      result.score.mean_pressure *= options_.page.scale;  // as the hand feels it
-      result.score.peak_force *= options_.page.scale;
-      result.score.max_force_step *= options_.page.scale;
-      result.position = sheet.first_position + index;
-      result.mode = session_.mode;
-      result.repetition = repetition;
-      result.seed = session_.seed;
-      if (repetition == 1) draw(sheet.page, recording, own, index, result, out);
-      summary_.results.push_back(std::move(result));
-    }
+    for (Result& result : results_of(recording, where)) summary_.results.push_back(std::move(result));
   }
 
-  void draw(const PracticePage& page, const Recording& recording, const Recording& own, int index, const Result& result,
-            OutputDirectory& out) const {
-    const char32_t code = result.score.character;
-    const std::string stem = file_stem(result.position, code, result.mode);
-    const char* const mode = result.mode == FeedbackMode::vision ? "mode.vision_only" : "mode.vision_and_force";
-    const std::string title =
-        fmt::format("{}, {}, {}", encode_utf8(code), options_.language.text(mode), session_.device.model);
-    out.write(stem + ".svg", page_picture(page, recording, index, title, options_.style, options_.language));
-    const bool reached = !own.samples.empty();  // the page may have been aborted before
-    if (plots_ && reached) {
-      out.write(stem + "-force.svg", force_plot(recording, index, title, options_.language));
+  /// Pictures come last: what was written is safe by then. Their forces are made again from what is stored.
+  void draw(OutputDirectory& out) const {
+    PictureOptions options = {options_.style, options_.language, !drawn_.empty() && can_plot()};
+    for (const auto& [name, where] : drawn_) {
+      draw_page(open_recording(out.reserve(name)).recording, where, options, out);
     }
-    std::ostringstream trace;
-    write_recording(trace, own);
-    out.write(stem + ".csv", trace.str());
   }
 
   void report(const OutputDirectory& out) const {
@@ -347,12 +303,6 @@ class WriteRun {
     const auto unfinished = std::count_if(results.begin(), results.end(), given_up);
     if (unfinished == 0) return;
     spdlog::warn("not completed: {} of {}", unfinished, counted(results.size(), "character"));
-    if (pen_.is_replay()) {
-      spdlog::warn(
-          "a trace is replayed with the TEXT and the page options with which it was recorded: that of a text of "
-          "several "
-          "characters is page-1-....csv, with the whole text");
-    }
   }
 
   const WriteArguments& options_;
@@ -361,7 +311,7 @@ class WriteRun {
   std::vector<FeedbackMode> modes_;
   std::vector<Sheet> sheets_;
   Summary summary_;
-  bool plots_ = false;
+  std::vector<std::pair<std::string, PageInRun>> drawn_;  ///< recordings of which pictures are made
 };
 
 }  // namespace
@@ -371,8 +321,9 @@ void add_write(CLI::App& program) {
       program.add_subcommand("write",
                              "Write a text, without and with force. It is written by a simulated writer on a simulated "
                              "device, or by a person on a real one, where space, Esc and Ctrl-C take the force away at "
-                             "once and stop. DIR receives summary.json and, per character and mode, a picture, a force "
-                             "plot and a trace of the first repetition; of a page of several characters a trace too.");
+                             "once and stop. DIR receives summary.json, which explains the run, strokes.csv, a recording "
+                             "of each page and mode, which `replay` reads, and per character and mode a picture and a "
+                             "force plot.");
   command->footer(
       "calligraphy write 永和 -o out                       # without and with force\n"
       "calligraphy write 永 --repeat 20 -o twenty          # what force changes\n"
@@ -389,13 +340,11 @@ void add_write(CLI::App& program) {
   command->add_option("--order", options->order, "Alternate stroke order (default: the standard one)")
       ->type_name("NAME");
   std::vector<std::string> with_names = simulated_devices();
-  with_names.insert(with_names.end(), {"phantom", "openhaptics", "replay:FILE"});
+  with_names.insert(with_names.end(), {"phantom", "openhaptics"});
   command
       ->add_option("--device", options->device,
                    "[simulated:]NAME, where NAME is one of " + device_names() +
-                       "; phantom[:SERIAL] or openhaptics[:NAME], real devices; or replay:FILE, a trace recorded by "
-                       "this command, with the same TEXT and page options: page-N-MODE-1.csv of several characters, "
-                       "otherwise 01-CHARACTER-MODE.csv")
+                       "; or phantom[:SERIAL] or openhaptics[:NAME], real devices")
       ->capture_default_str()
       ->check(such_as(with_names))
       ->type_name("DEVICE");
@@ -415,11 +364,6 @@ void add_write(CLI::App& program) {
       ->add_option("--timeout", options->timeout, "Real device: abort a page after SECONDS, 1 to 100000 (default: 600)")
       ->check(number(1.0, 1e5))
       ->type_name("SECONDS");
-  command
-      ->add_option("--like", options->like,
-                   "Device profile that supplies limits and workspace for a replay (default: desktop)")
-      ->check(such_as(profile_names()))
-      ->type_name("NAME");
   add_phantom_options(*command, options->wire_profile, options->model);
   add_page_options(*command, options->page);
   command->add_option("--rate", options->rate, "Servo rate, 10 to 20000 (default: the device's)")
@@ -428,7 +372,7 @@ void add_write(CLI::App& program) {
   command
       ->add_option(
           "--repeat", options->repeat,
-          "Number of repetitions, each with beliefs of its own; pictures and traces show the first. An effect of "
+          "Number of repetitions, each with beliefs of its own; pictures and recordings are of the first. An effect of "
           "force is reported from 10 on")
       ->check(integer(1, 100000))
       ->type_name("N")
@@ -452,6 +396,10 @@ void add_write(CLI::App& program) {
       ->type_name("T");
   add_language_option(*command, options->language);
   add_lines_flag(*command, options->style);
+  command
+      ->add_flag("--ticks", options->ticks,
+                 "Also write the ticks of each recording as comma-separated values: page-N-MODE-R-ticks.csv")
+      ->disable_flag_override();
   command->add_flag("--json", options->json, "Print summary.json instead of the table")->disable_flag_override();
   command->callback([options] { WriteRun(*options).write(); });
 }

@@ -45,6 +45,9 @@ class LineReader {
   /// Reads the next line, which must end with a line break: otherwise its last number may have been cut in two.
   bool next_whole();
 
+  /// Whether the line ends with a line break: only the last one of a text may not.
+  bool is_whole() const noexcept { return !at_end_; }
+
   /// Reads the next line that has more than blanks and a comment. `kind_of(first_word)` is its LineKind.
   template <typename KindOf>
   bool next_statement(const KindOf& kind_of) {

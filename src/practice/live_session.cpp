@@ -72,7 +72,7 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
   ServoLoop loop(device, std::move(loop_law), servo);
 
   LiveResult result;
-  result.recording = recording_for(page, renderer, options.mode, options.law);
+  result.recording = recording_for(page, renderer, options.renderer, capabilities, options.mode, options.law);
   LiveView view;
   LiveTick newest;
   const auto take_over = [&] {
@@ -80,6 +80,7 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
       result.recording.samples.push_back(newest.sample);
       result.recording.inputs.push_back(newest.input);
     }
+    if (options.keep) options.keep(result.recording);
     view.newest = newest.sample;
     view.hint = newest.hint;
     view.to_start = newest.to_start;
@@ -89,6 +90,7 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
     view.advice = device.advice();
     return !options.watch || options.watch(view);
   };
+  if (options.keep) options.keep(result.recording);
   bool is_wanted = true;
   const double begin = monotonic_seconds();
   result.warnings = loop.start([&](const std::vector<std::string>& warnings) {

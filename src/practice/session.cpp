@@ -1,5 +1,7 @@
 #include <calligraphy/practice/session.hpp>
 
+#include <algorithm>
+
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/detail/flush_denormals.hpp>
 
@@ -24,9 +26,15 @@ Eigen::Vector3d resting_point(const PracticePage& page) {
   return {0.5 * page.width, 0.5 * page.height, resting_height};
 }
 
+void end(const SessionOptions& options, const Recording& recording) {
+  if (options.keep) options.keep(recording);
+  if (options.progress) options.progress(1.0);
+}
+
 /// Renders the device's present sample, sends the force and records the tick.
 const HapticTick& record_tick(const PracticePage& page, HapticDevice& device, SessionTick& session,
                               const SessionOptions& options, Recording& recording) {
+  if (options.keep && recording.samples.size() % progress_interval == 0) options.keep(recording);
   const HapticTick& tick = session.update(device.read());
   if (session.has_failed()) std::rethrow_exception(session.error());
   device.write(session.force());
@@ -62,14 +70,14 @@ Recording run_session(const PracticePage& page, const SessionOptions& options, c
   SessionTick session(renderer, capabilities, options.mode, options.law, options.measure_ticks);
   const double period = 1.0 / renderer.options().servo_rate;
   const double longest = options.character_timeout * static_cast<double>(page.characters.size());
-  Recording recording = recording_for(page, renderer, options.mode, options.law);
+  Recording recording = recording_for(page, renderer, options.renderer, capabilities, options.mode, options.law);
   while (device.time() < longest) {
     const std::optional<Intention> next = motion(record_tick(page, device, session, options, recording), period);
     if (!next) break;
     device.set_intention(to_device(*next, mapping));
     device.advance(period);
   }
-  if (options.progress) options.progress(1.0);
+  end(options, recording);
   return recording;
 }
 
@@ -102,10 +110,34 @@ Recording replay_page(const PracticePage& page, ReplayDevice& device, const Sess
   HapticRenderer renderer(page.characters, mapping, device.capabilities(), options.renderer);
   const detail::FlushDenormals as_a_servo_thread;
   SessionTick session(renderer, device.capabilities(), options.mode, options.law, options.measure_ticks);
-  Recording recording = recording_for(page, renderer, options.mode, options.law);
+  Recording recording = recording_for(page, renderer, options.renderer, device.capabilities(), options.mode, options.law);
   while (!device.finished()) record_tick(page, device, session, options, recording);
-  if (options.progress) options.progress(1.0);
+  end(options, recording);
   return recording;
+}
+
+Recording replayed(const Recording& recording) {
+  if (!recording.setup) throw ValueError("recording: without a set-up its ticks cannot be made again");
+  if (recording.inputs.empty()) throw ValueError("recording: without inputs its ticks cannot be made again");
+  const RecordingSetup& setup = *recording.setup;
+  RendererOptions options = setup.renderer;
+  if (setup.has_own_law) options.guidance.force = GuidanceOptions().force;  // only its forces are of the author's law
+  HapticRenderer renderer(setup.page.characters, setup.mapping, setup.device, options);
+  const detail::FlushDenormals as_a_servo_thread;
+  SessionTick session(renderer, setup.device, setup.mode, {}, false);
+  Recording result = recording;
+  result.samples.clear();
+  result.samples.reserve(recording.inputs.size());
+  for (DeviceState input : recording.inputs) {
+    if (!input.force.allFinite()) input.force = output_force(setup.device, session.force());
+    session.update(input);
+    result.samples.push_back(session.sample());
+  }
+  if (!setup.has_own_law) return result;
+  for (std::size_t i = 0; i < std::min(result.samples.size(), recording.samples.size()); ++i) {
+    result.samples[i].force = recording.samples[i].force;
+  }
+  return result;
 }
 
 }  // namespace calligraphy

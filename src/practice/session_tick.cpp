@@ -1,9 +1,11 @@
 #include "session_tick.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/render/option_values.hpp>
 
 #include "base/monotonic_clock.hpp"
 #include "collision/length.hpp"
@@ -67,12 +69,16 @@ std::exception_ptr SessionTick::error() const {
   return std::make_exception_ptr(ValueError(law + "\": its force is not finite"));
 }
 
-Recording recording_for(const PracticePage& page, const HapticRenderer& renderer, FeedbackMode mode,
-                        const ForceLaw& law) {
+Recording recording_for(const PracticePage& page, const HapticRenderer& renderer, const RendererOptions& options,
+                        const Capabilities& device, FeedbackMode mode, const ForceLaw& law) {
   Recording recording;
   recording.rate = renderer.options().servo_rate;
   recording.page = page_id(page);
   recording.law = mode == FeedbackMode::vision ? "none" : law ? law.name : renderer.law().name;
+  const std::vector<OptionValue> values = option_values(options);
+  const OptionValue own_guidance = {"guidance.force", "own"};
+  const bool has_own_law = law || std::find(values.begin(), values.end(), own_guidance) != values.end();
+  recording.setup = {page, renderer.mapping(), device, options, mode, has_own_law};
   return recording;
 }
 

@@ -46,8 +46,8 @@ class SessionTick {
 };
 
 /// An empty recording of a page written at the rate of a renderer.
-Recording recording_for(const PracticePage& page, const HapticRenderer& renderer, FeedbackMode mode,
-                        const ForceLaw& law);
+Recording recording_for(const PracticePage& page, const HapticRenderer& renderer, const RendererOptions& options,
+                        const Capabilities& device, FeedbackMode mode, const ForceLaw& law);
 
 /// Share of the page that is written; every character counts the same [1].
 double share_written(const PracticePage& page, int character, int stroke) noexcept;

@@ -106,9 +106,9 @@ class Devices(ProgramTest):
         loop, = json.loads((self.directory / "out" / "servo.json").read_text())
         self.assertGreater(loop["ticks"], 1000)
         self.assertIn("missed deadlines", done.stdout)
-        self.run_program("write", "十", "--device", "replay:out/page-1-force-1.csv", "--like", "touch", "--out", "again")
-        again, = self.summary("again")
-        self.assertEqual(again["strokes_completed"], row["strokes_completed"])
+        replayed = json.loads(self.run_program("replay", "out", "--json").stdout)
+        self.assertEqual([(each["complete"], each["same_forces"]) for each in replayed["recordings"]], [(True, True)])
+        self.assertEqual(replayed["results"][0]["rms_error_mm"], row["rms_error_mm"])
 
     def test_no_force_is_left_behind_by_a_signal_to_the_program(self):
         """Sent while a force is on; 128 is added to a signal that ended the program."""

@@ -212,8 +212,6 @@ _calligraphy; printf '%s\\n' "${{COMPREPLY[@]}}" """
                             ("calligraphy replay --device simulated :", PROFILES),
                             ("calligraphy replay --device simulated : o", ["omni"]),
                             ("calligraphy replay --device = simulated : o", ["omni"]),
-                            ("calligraphy write --device rep", ["nospace", "replay:"]),
-                            ("calligraphy write --device replay :", ["default"]),
                             ("calligraphy stability --grip ", ["soft", "normal", "firm"])):
             with self.subTest(line=line):
                 self.assertEqual(self.completed_by_bash(line), words)
@@ -225,9 +223,6 @@ _calligraphy; printf '%s\\n' "${{COMPREPLY[@]}}" """
                                  "calligraphy write --device simulated:omni "),
                                 ("calligraphy write --device=simulated:o",
                                  "calligraphy write --device=simulated:omni "),
-                                ("calligraphy write --device rep", "calligraphy write --device replay:"),
-                                ("calligraphy write --device replay:", "calligraphy write --device replay:hanzi.set "),
-                                ("calligraphy write --device replay:h", "calligraphy write --device replay:hanzi.set "),
                                 ("calligraphy write --wire-profile h", "calligraphy write --wire-profile hanzi.set "),
                                 ("calligraphy write --mode=f", "calligraphy write --mode=force ")):
             with self.subTest(line=line):
@@ -243,7 +238,6 @@ _calligraphy; printf '%s\\n' "${{COMPREPLY[@]}}" """
                             ("calligraphy devices watch ", ["openhaptics", "phantom"]),
                             ("calligraphy write --wire-profile ", ["hanzi.set", "omni", "simulated"]),
                             ("calligraphy write --device simulated:o", ["simulated:omni"]),
-                            ("calligraphy write --device replay:", ["replay:", "replay:hanzi.set"]),
                             ("calligraphy stability --grip ", ["firm", "normal", "soft"])):
             with self.subTest(line=line):
                 self.assertEqual(self.completed_by_fish(line), words)
@@ -258,7 +252,6 @@ _calligraphy; printf '%s\\n' "${{COMPREPLY[@]}}" """
                                 ("calligraphy write 永 --tol", "calligraphy write 永 --tolerance="),
                                 ("calligraphy write --mode f", "calligraphy write --mode force "),
                                 ("calligraphy write --mode=f", "calligraphy write --mode=force "),
-                                ("calligraphy write --device=replay:", "calligraphy write --device=replay:hanzi.set "),
                                 ("calligraphy import x -ohan", "calligraphy import x -ohanzi.set "),
                                 ("calligraphy import x --out=h", "calligraphy import x --out=hanzi.set "),
                                 ("calligraphy devices prof", "calligraphy devices profile "),
@@ -273,8 +266,6 @@ _calligraphy; printf '%s\\n' "${{COMPREPLY[@]}}" """
                                 ("calligraphy write --device simul", "calligraphy write --device simulated:"),
                                 ("calligraphy write --device simulated:o",
                                  "calligraphy write --device simulated:omni "),
-                                ("calligraphy write --device rep", "calligraphy write --device replay:"),
-                                ("calligraphy write --device replay:", "calligraphy write --device replay:hanzi.set "),
                                 ("calligraphy stability --grip s", "calligraphy stability --grip soft ")):
             with self.subTest(line=line):
                 self.assertEqual(self.completed_by_zsh(line), completed)

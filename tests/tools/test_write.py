@@ -27,7 +27,7 @@ class Write(ProgramTest):
                                         "20", "--out", "out"], cwd=self.directory, stdout=subprocess.DEVNULL)
         finally:
             signal.signal(signal.SIGHUP, before)
-        while running.poll() is None and not (self.directory / "out/01-一-force.csv").exists():
+        while running.poll() is None and not (self.directory / "out/page-1-force-1.recording.gz").exists():
             time.sleep(0.001)
         running.send_signal(signal.SIGHUP)
         self.assertEqual(running.wait(600), 0)
@@ -70,7 +70,7 @@ class Write(ProgramTest):
 
     def test_results_up_to_ctrl_c_are_saved(self):
         printed, told = self.interrupted("write", "一", "--mode", "force", "--repeat", "100000", "--out", "out",
-                                         once="out/01-一-force.csv")
+                                         once="out/page-1-force-1.recording.gz")
         self.assertIn("calligraphy: interrupted; results so far are in out\n", told)
         row = next(line for line in printed.splitlines() if line.startswith("一"))
         written = len(self.summary())
@@ -88,7 +88,7 @@ class Write(ProgramTest):
             with self.subTest(ending=ending.name):
                 running = subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], *run, "--repeat", "100000"],
                                            cwd=self.directory, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-                while running.poll() is None and not (self.directory / "out/01-一-force.csv").exists():
+                while running.poll() is None and not (self.directory / "out/page-1-force-1.recording.gz").exists():
                     time.sleep(0.001)
                 running.send_signal(signal.SIGSTOP)  # it changes nothing while we look
                 os.waitpid(running.pid, os.WUNTRACED)
@@ -112,10 +112,10 @@ class Write(ProgramTest):
         self.assertNotIn("%", done.stderr, "no progress bar in a pipe")
         out = self.directory / "deep" / "out"
         stems = [f"{n:02}-{c}-{mode}" for n, c in ((1, "十"), (2, "人")) for mode in ("vision", "force")]
-        expected = {"summary.json"} | {s + e for s in stems for e in (".svg", ".csv")}
-        expected |= {f"page-1-{mode}-1.csv" for mode in ("vision", "force")}
+        expected = {"summary.json", "strokes.csv"} | {stem + ".svg" for stem in stems}
+        expected |= {f"page-1-{mode}-1.recording.gz" for mode in ("vision", "force")}
         if shutil.which("gnuplot"):
-            expected |= {s + "-force.svg" for s in stems}
+            expected |= {stem + "-force.svg" for stem in stems if stem.endswith("force")}
             self.assertEqual(done.stderr, "")
         self.assertEqual({path.name for path in out.iterdir()}, expected)
         for picture in out.glob("*.svg"):
@@ -139,20 +139,6 @@ class Write(ProgramTest):
             self.assertEqual(row["max_force_step_N"] > 0.0, row["mode"] == "force")
         self.assertEqual([(row["character"], row["mode"]) for row in self.summary("deep/out")],
                          [("十", "vision"), ("十", "force"), ("人", "vision"), ("人", "force")])
-
-    def test_a_trace_contains_only_its_character(self):
-        self.run_program("write", "十", "--out", "out", "--mode", "force", "--rate", "500")
-        with open(self.directory / "out" / "01-十-force.csv", newline="") as file:
-            rows = [row for row in csv.reader(file) if not row[0].startswith("#")]
-        for column in ("time_s", "tip_x_m", "force_z_N", "tick_ns"):
-            self.assertIn(column, rows[0])
-        self.assertEqual({row[rows[0].index("character")] for row in rows[1:]}, {"0"})
-        self.assertEqual({len(row) for row in rows}, {len(rows[0])})
-        times = [float(row[0]) for row in rows[1:]]
-        steps = [b - a for a, b in zip(times, times[1:])]
-        self.assertGreater(len(steps), 100)
-        self.assertAlmostEqual(min(steps), 0.002, places=6)
-        self.assertAlmostEqual(max(steps), 0.002, places=6)
 
     def test_the_table_has_units_and_compares_the_modes(self):
         text = self.run_program("write", "十人", "--out", "out", "--repeat", "10").stdout
@@ -213,14 +199,6 @@ class Write(ProgramTest):
         self.run_program("write", "永", "--out", "weak", "--motion-scale", "2", "--peak-force", "0.3")
         self.assertLessEqual(max(row["peak_force_N"] for row in self.summary("weak")), 0.3 + 1e-9)
 
-    def test_a_trace_written_on_a_desk_is_replayed_there(self):
-        page = ["--page", "desk", "--motion-scale", "2"]
-        self.run_program("write", "十", "--out", "first", "--mode", "force", *page)
-        self.run_program("write", "十", "--out", "again", "--device", "replay:first/01-十-force.csv", *page)
-        first, again = self.summary("first")[0], self.summary("again")[0]
-        for field in ("strokes_completed", "rms_error_mm", "writing_time_s", "peak_force_N"):
-            self.assertAlmostEqual(again[field], first[field], places=5)
-
     def test_repetitions_are_paired_by_their_seeds(self):
         done = self.run_program("write", "一十", "--out", "out", "--repeat", "3", "--seed", "5", "--json")
         rows = self.summary()
@@ -232,9 +210,8 @@ class Write(ProgramTest):
         for mode in ("vision", "force"):
             seeds = [(r["repetition"], r["seed"]) for r in rows if r["mode"] == mode and r["character"] == "十"]
             self.assertEqual(seeds, [(1, 5), (2, 6), (3, 7)])
-        traces = sorted(path.name for path in (self.directory / "out").glob("*.csv"))
-        self.assertEqual(traces, sorted(f"{part}-{mode}{end}.csv" for mode in ("force", "vision")
-                                        for part, end in (("01-一", ""), ("02-十", ""), ("page-1", "-1"))),
+        kept = sorted(path.name for path in (self.directory / "out").glob("page-*"))
+        self.assertEqual(kept, [f"page-1-{mode}-1.recording.gz" for mode in ("force", "vision")],
                          "of the first repetition only")
 
     def test_pictures_show_ink_or_lines(self):
@@ -279,50 +256,11 @@ class Write(ProgramTest):
         printed = max(row["max_force_step_N"] for row in self.summary("printed"))
         self.assertLess(ours, printed)
 
-    def test_a_recorded_trace_can_be_replayed_as_a_device(self):
-        self.run_program("write", "十", "--out", "first", "--mode", "force")
-        trace = self.directory / "first" / "01-十-force.csv"
-        self.run_program("write", "十", "--out", "again", "--device", f"replay:{trace}")
-        first, again = self.summary("first")[0], self.summary("again")
-        self.assertEqual([row["mode"] for row in again], ["force"])
-        for field in ("strokes_completed", "rms_error_mm", "max_error_mm", "writing_time_s"):
-            self.assertAlmostEqual(again[0][field], first[field], places=6)
-        lines = [path.read_text().count("\n") for path in (trace, self.directory / "again" / trace.name)]
-        self.assertEqual(lines[0], lines[1])
-
-    def test_a_page_of_several_characters_is_replayed_whole_and_with_another_text_nothing_is_flattered(self):
-        self.run_program("write", "十人", "--out", "first", "--mode", "force")
-        done = self.run_program("write", "十人", "--out", "again", "--device", "replay:first/page-1-force-1.csv")
-        self.assertEqual(done.stderr, "")
-        for first, again in zip(self.summary("first"), self.summary("again")):
-            for field in ("strokes_completed", "rms_error_mm", "max_error_mm", "writing_time_s"):
-                self.assertAlmostEqual(again[field], first[field], places=6)
-        self.assertFalse(list((self.directory / "again").glob("page-*")), "it is the trace that was given")
-        for trace, text in (("01-十", "十"), ("02-人", "人"), ("02-人", "十人")):
-            done = self.run_program("write", text, "--out", "other", "--force",
-                                    "--device", f"replay:first/{trace}-force.csv")
-            self.assertIn("with the TEXT and the page options with which it was recorded", done.stderr)
-            for row in self.summary("other"):
-                self.assertEqual((row["strokes_completed"], row["writing_time_s"]), (0, None))
-            if len(text) == 1:  # on a page of another text it is written elsewhere
-                self.assertGreater(self.summary("other")[0]["rms_error_mm"], 10.0)
-                self.assertLess(self.summary("other")[0]["contour"], 0.01)
-        nothing, person = self.summary("other")  # of the trace of the second character alone
-        self.assertIsNone(nothing["rms_error_mm"])
-        self.assertAlmostEqual(person["rms_error_mm"], self.summary("first")[1]["rms_error_mm"], places=6)
-
     def test_where_no_character_is_completed_more_repetitions_are_not_advised(self):
         for repeat, pairs in (("1", "1 pair"), ("2", "2 pairs")):
             done = self.run_program("write", "永", "--out", repeat, "--rules", "wang2006", "--repeat", repeat)
             self.assertIn("\nno character was completed in both modes: no effect of force to show\n"
                           f"{pairs} omitted: not every stroke was completed\n", done.stdout)
-
-    def test_a_trace_whose_time_runs_backwards_is_named(self):
-        self.run_program("write", "一", "--out", "first", "--mode", "force")
-        lines = (self.directory / "first" / "01-一-force.csv").read_text().splitlines(keepends=True)
-        lines[10], lines[11] = lines[11], lines[10]
-        (self.directory / "back.csv").write_text("".join(lines))
-        self.assert_refused(1, ["write", "一", "--out", "again", "--device", "replay:back.csv"], "back.csv", "time")
 
     def test_the_requested_peak_force_is_never_exceeded(self):
         self.run_program("write", "十", "--out", "out", "--mode", "force", "--peak-force", "0.3")
@@ -360,7 +298,7 @@ class Write(ProgramTest):
         (self.directory / "own.txt").write_text("calligraphy characters 2\nsource s\nlicence l\nattribution a\n\n"
                                                 "character /\nstroke 1 0.1,0.5 0.9,0.5\n")
         self.run_program("write", "/", "--out", "out", "--characters", "own.txt", "--mode", "force")
-        self.assertTrue((self.directory / "out/01-U+002F-force.csv").exists(), self.files())
+        self.assertTrue((self.directory / "out/01-U+002F-force.svg").exists(), self.files())
 
     def test_characters_of_a_set_file_are_written_in_the_requested_order(self):
         data = str(Path(__file__).resolve().parent.parent / "data" / "version_1.set")
@@ -368,8 +306,8 @@ class Write(ProgramTest):
         self.assertEqual([(row["strokes_completed"], row["strokes"]) for row in self.summary()], [(5, 5), (1, 1)])
         self.run_program("write", "北", "--out", "other", "--characters", data, "--mode", "force", "--order", "Table 3")
         self.assertEqual([row["strokes_completed"] for row in self.summary("other")], [5])
-        self.assertNotEqual((self.directory / "out/01-北-force.csv").read_bytes(),
-                            (self.directory / "other/01-北-force.csv").read_bytes())
+        self.assertNotEqual((self.directory / "out/01-北-force.svg").read_bytes(),
+                            (self.directory / "other/01-北-force.svg").read_bytes())
 
     def test_characters_of_hanzi_writer_data_are_written(self):
         self.run_program("write", "永和九年", "--out", "out", "--characters", self.data_directory())
@@ -392,12 +330,6 @@ class Refusals(ProgramTest):
                 (["write", "北", "--out", "out", "--device", "phantasm"], ["--device", "phantasm", "phantom"]),
                 (["write", "北", "--out", "out", "--device", "simulated:"], ["--device", "simulated:", "desktop"]),
                 (["write", "北", "--out", "out", "--device", "phantom:"], ["--device", "phantom:", "colon"]),
-                (["write", "北", "--out", "out", "--device", "replay"], ["--device", "replay", "file"]),
-                (["write", "北", "--out", "out", "--device", "replay:x", "--writer", "novice"], ["--writer", "replay"]),
-                (["write", "北", "--out", "out", "--device", "replay:x", "--rate", "500"], ["--rate", "replay"]),
-                (["write", "北", "--out", "out", "--device", "replay:x", "--mode", "both"], ["--mode both", "replay"]),
-                (["write", "北", "--out", "out", "--like", "omni"], ["--like", "replay"]),
-                (["write", "北", "--out", "out", "--device", "replay:t.csv", "--like", "omnibus"], ["--like: omnibus"]),
                 (["write", "北", "--out", "out", "--timeout", "5"], ["--timeout", "simulated"]),
                 (["write", "北", "--out", "out", "--wire-profile", "omni"], ["--wire-profile", "simulated"]),
                 (["write", "北", "--out", "out", "--rules", "wang2006", "--renderer", "everything"], ["--renderer"]),
@@ -432,7 +364,6 @@ class Refusals(ProgramTest):
 
     def test_a_missing_or_malformed_file_is_named(self):
         self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "none.txt"], "none.txt")
-        self.assert_refused(1, ["write", "北", "--out", "out", "--device", "replay:none.csv"], "none.csv")
         self.assert_refused(1, ["info", "北", "--characters", "/dev/zero"], "/dev/zero", "regular file")
         (self.directory / "bad.txt").write_text("calligraphy characters 2\ncharacter 北\nstroke 99 0,0 1,1\n")
         self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "bad.txt"], "bad.txt", "3", "99")
@@ -451,7 +382,7 @@ class Refusals(ProgramTest):
         for out in ("gone", "gone/", "gone/sub"):
             self.assert_refused(1, ["write", "一", "--out", out], "gone is a link to unmounted/disk, which is not a")
             self.assertEqual(os.readlink(self.directory / "gone"), "unmounted/disk")
-        self.assert_refused(1, ["write", "一", "--out", "link/gnome/../sub", "--device", "replay:none.csv"], "none.csv")
+        self.assert_refused(1, ["write", "一", "--out", "link/gnome/../sub", "--characters", "none.txt"], "none.txt")
         self.assertEqual(os.readlink(self.directory / "link"), "there")
         self.run_program("write", "一", "--mode", "force", "--out", "link")
         self.assertEqual((self.directory / "there/.calligraphy-probe").read_text(), "mine")

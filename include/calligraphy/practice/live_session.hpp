@@ -43,6 +43,8 @@ struct LiveOptions {
   double timeout = 600.0;                                       ///< the session ends after this time [s]
   /// Called on the calling thread, for the first time before the first tick; false ends the session.
   std::function<bool(const LiveView&)> watch = nullptr;
+  /// As SessionOptions::keep, on the calling thread, about 50 times per second.
+  std::function<void(const Recording&)> keep = nullptr;
 };
 
 /// Result of write_with_device().

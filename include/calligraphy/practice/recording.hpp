@@ -2,17 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <iosfwd>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/judge/pen_path.hpp>
 #include <calligraphy/model/placed_character.hpp>
+#include <calligraphy/practice/feedback_mode.hpp>
+#include <calligraphy/practice/page.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
+#include <calligraphy/render/renderer_options.hpp>
 
 namespace calligraphy {
 
@@ -31,6 +32,16 @@ struct RecordedSample {
   float tick_ns = 0;                                      ///< execution time of the renderer; 0 if not measured [ns]
 };
 
+/// All that it takes, besides what came in, to make the ticks of a recording again.
+struct RecordingSetup {
+  PracticePage page;                         ///< that was written
+  MotionMapping mapping;                     ///< device axes to page axes
+  Capabilities device;                       ///< as the renderer knew it
+  RendererOptions renderer;                  ///< as given to the renderer
+  FeedbackMode mode = FeedbackMode::force;   ///< whether the device received the renderer's force
+  bool has_own_law = false;                  ///< the forces are of a law that is not the library's
+};
+
 /// A page being written, tick by tick.
 struct Recording {
   double rate = 1000.0;                 ///< samples per second [Hz]
@@ -40,19 +51,8 @@ struct Recording {
   /// What came in at each tick, exactly, or empty if it was not recorded. A force of NaN is what the device outputs
   /// (output_force()) when it is sent that of the tick before.
   std::vector<DeviceState> inputs = {};
+  std::optional<RecordingSetup> setup = {};  ///< std::nullopt if it is not known
 };
-
-/// Writes comma-separated values. The first line names columns and units; the second, a comment, gives the rate, the
-/// page and the law, its control characters replaced by spaces. Numbers are independent of the locale and in the
-/// shortest form that reads back exactly; events are the sum of TickEvent's bits.
-void write_recording(std::ostream& out, const Recording& recording);
-
-/// Reads exactly what write_recording wrote. `name` is used in messages.
-/// @throws FormatError naming the line and the value, also when the file is truncated within a line; FileError when the
-/// stream fails
-Recording read_recording(std::istream& in, std::string_view name);
-/// Reads a file in this format. @throws FileError when it cannot be opened, FormatError as above
-Recording read_recording(const std::filesystem::path& path);
 
 /// The pen-downs of a recording, in the coordinates of a character's square, whether or not the renderer accepted them
 /// as strokes: the samples from each contact to the lift, except rejected ones. A lift of at most 50 ms is a bounce,

@@ -9,6 +9,7 @@
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/judge/pen_trace.hpp>
+#include <calligraphy/practice/feedback_mode.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/writer.hpp>
@@ -16,15 +17,6 @@
 #include <calligraphy/render/motion_mapping.hpp>
 
 namespace calligraphy {
-
-/// The two modes of the paper's experiment (sec. 7.1).
-enum class FeedbackMode {
-  vision,  ///< vision alone: the device receives zero instead of the renderer's force
-  force    ///< vision and force
-};
-
-/// "vision", "force".
-const char* to_string(FeedbackMode mode) noexcept;
 
 /// Options of a writer, a device and a renderer in closed loop.
 struct SessionOptions {
@@ -44,6 +36,9 @@ struct SessionOptions {
   double character_timeout = 120;  ///< the session ends after this virtual time per character [s]
   /// Called from time to time with the share of characters written. An exception that it throws ends the session.
   std::function<void(double)> progress = nullptr;
+  /// Called with the recording so far before the first tick and then from time to time, so that what comes in can be
+  /// stored as it comes (RecordingWriter). An exception that it throws ends the session.
+  std::function<void(const Recording&)> keep = nullptr;
 };
 
 /// Returns, after each tick, the intended motion of the pen on the page during the `seconds` until the next one;
@@ -66,8 +61,14 @@ Recording write_page(const PracticePage& page, const SessionOptions& options);
 Recording follow_trace(const PracticePage& page, const PenTrace& trace, const SessionOptions& options);
 
 /// Records what the renderer would have rendered for recorded samples, as fast as possible and without a hand in the
-/// loop. Uses only the options `mode`, `renderer`, `mapping`, `law`, `measure_ticks` and `progress`.
+/// loop. Uses only the options `mode`, `renderer`, `mapping`, `law`, `measure_ticks`, `progress` and `keep`.
 /// @throws ValueError when an option is out of its domain
 Recording replay_page(const PracticePage& page, ReplayDevice& device, const SessionOptions& options);
+
+/// Makes the ticks of a recording again from its inputs and its set-up: the same to the last bit, but for measured times,
+/// and for the forces of an author's own law, which are kept as they are. With another set-up, what would have been
+/// rendered for this pen.
+/// @throws ValueError when it has no set-up or no inputs, or the renderer refuses its set-up
+Recording replayed(const Recording& recording);
 
 }  // namespace calligraphy
