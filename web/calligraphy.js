@@ -518,7 +518,10 @@ const numbers = {
  * @param {string} type such as "text"
  * @returns {boolean} whether it is copied to the memory of the library
  */
-const isCopied = (type) => /^(text|read|write)/.test(type);
+const isCopied = (type) => type === "text" || isArray(type);
+
+/** @param {string} type such as "read Float64" */
+const isArray = (type) => /^(read|write) /.test(type);
 
 /**
  * @param {string} type such as "Int32"
@@ -527,7 +530,8 @@ const isCopied = (type) => /^(text|read|write)/.test(type);
 const arrayOf = (type) => (/** @type {any} */ (globalThis))[`${type}Array`];
 
 /**
- * How many elements an array must have, by the names of its parameter and the next one, and their arguments.
+ * How many elements an array must have, by the names of its parameter and of the next one that is no array, and their
+ * arguments.
  * @param {string} element its type
  * @param {Parameter[]} parameters
  * @param {any[]} values of all arguments
@@ -535,11 +539,14 @@ const arrayOf = (type) => (/** @type {any} */ (globalThis))[`${type}Array`];
  * @returns {number}
  */
 function leastLength(element, parameters, values, i) {
-  const [name] = parameters[i], next = parameters[i + 1]?.[0] ?? "", count = values[i + 1];
-  if (next === "path_sizes") {
-    return 2 * Array.from(count ?? []).slice(0, values[i + 2]).reduce((sum, size) => sum + size, 0);
+  const [name] = parameters[i];
+  if (parameters[i + 1]?.[0] === "path_sizes") {
+    return 2 * Array.from(values[i + 1] ?? []).slice(0, values[i + 2]).reduce((sum, size) => sum + size, 0);
   }
-  if (["capacity", "size", "path_count"].includes(next)) return name === "points" ? 2 * count : count;
+  const next = parameters.findIndex(([, type], other) => other > i && !isArray(type));
+  if (["capacity", "size", "path_count"].includes(parameters[next]?.[0])) {
+    return values[next] * ({ points: 2, samples: 9 }[name] ?? 1);
+  }
   return element === "Float64" ? 3 : 1;  // a position, a velocity or a force; or a number
 }
 

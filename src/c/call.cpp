@@ -50,8 +50,8 @@ calligraphy_status refuse_handle(Kind kind, const void* handle) noexcept {
   if (!handle) return refuse(CALLIGRAPHY_INVALID_HANDLE, "%s is null", to_string(kind));
   const Kind other = kind_of_handle(handle);
   if (other != Kind{}) {
-    const char* const article = other == Kind::index ? "an" : "a";
-    return refuse(CALLIGRAPHY_INVALID_HANDLE, "%s = %p: a handle of %s %s", to_string(kind), handle, article,
+    const char* const article = other == Kind::index ? "an " : other == Kind::traces ? "" : "a ";
+    return refuse(CALLIGRAPHY_INVALID_HANDLE, "%s = %p: a handle of %s%s", to_string(kind), handle, article,
                   to_string(other));
   }
   return refuse(CALLIGRAPHY_INVALID_HANDLE, "%s = %p: no handle, or it was freed", to_string(kind), handle);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "base/stylus_fields.hpp"
 #include "guidance.hpp"
 #include "structs.hpp"
 
@@ -123,6 +124,25 @@ Eigen::Vector3d known(std::int32_t is_known, const double (&from)[3]) noexcept {
   return is_known ? Eigen::Vector3d(from[0], from[1], from[2]) : Eigen::Vector3d::Constant(unknown);
 }
 
+using State = calligraphy_device_state;
+using Stylus = calligraphy_stylus;
+
+// In the order of stylus_fields and of the bits of calligraphy_stylus_quantity.
+constexpr double Stylus::*stylus_members[] = {&Stylus::pressure, &Stylus::force, &Stylus::altitude,
+                                              &Stylus::azimuth,  &Stylus::twist, &Stylus::height};
+constexpr double State::*state_members[] = {&State::stylus_pressure, &State::stylus_force, &State::stylus_altitude,
+                                            &State::stylus_azimuth,  &State::stylus_twist, &State::stylus_height};
+static_assert(std::size(stylus_members) == stylus_fields.size() && std::size(state_members) == stylus_fields.size());
+
+template <class Struct>
+StylusState sensed(std::uint32_t is_known, const Struct& from, double Struct::*const (&members)[6]) noexcept {
+  StylusState result;
+  for (std::size_t i = 0; i < stylus_fields.size(); ++i) {
+    if (is_known >> i & 1u) result.*stylus_fields[i].member = from.*members[i];
+  }
+  return result;
+}
+
 }  // namespace
 
 MotionMapping mapping_of(const calligraphy_mapping* from) {
@@ -214,6 +234,7 @@ DeviceState state_of(const calligraphy_device_state* given) noexcept {
   result.buttons = from.buttons;
   const bool is_status = from.status >= 0 && from.status <= CALLIGRAPHY_DEVICE_FAULT;
   result.status = is_status ? static_cast<DeviceStatus>(from.status) : DeviceStatus::fault;
+  if (from.stylus_known != 0) result.stylus = sensed(from.stylus_known, from, state_members);
   return result;
 }
 
@@ -228,7 +249,25 @@ calligraphy_device_state to_c(const DeviceState& from) noexcept {
   if (result.has_velocity) to_array(from.velocity, result.velocity);
   if (result.has_force) to_array(from.force, result.force);
   result.force_settling = from.force_settling;
+  for (std::size_t i = 0; i < stylus_fields.size(); ++i) {
+    const double value = from.stylus.*stylus_fields[i].member;
+    result.*state_members[i] = value;
+    if (!std::isnan(value)) result.stylus_known |= 1u << i;
+  }
   return result;
+}
+
+calligraphy_status read_stylus(const calligraphy_stylus* from, StylusState& to) noexcept {
+  to = {};
+  if (!from) return CALLIGRAPHY_OK;
+  if (const calligraphy_status status = check_given(from, "calligraphy_stylus")) return status;
+  constexpr std::uint32_t all = (1u << stylus_fields.size()) - 1;
+  if (from->known > all) {
+    return refuse(CALLIGRAPHY_INVALID_VALUE, "calligraphy_stylus: known = %u, must be a sum of bits, at most %u",
+                  static_cast<unsigned>(from->known), static_cast<unsigned>(all));
+  }
+  to = sensed(from->known, *from, stylus_members);
+  return CALLIGRAPHY_OK;
 }
 
 }  // namespace calligraphy::c

@@ -65,4 +65,8 @@ Tolerances tolerances_of(std::int32_t tolerance) {
 DeviceState state_of(const calligraphy_device_state* from) noexcept;
 calligraphy_device_state to_c(const DeviceState& from) noexcept;
 
+/// Converts what a pen senses; null: nothing. Refuses a struct of the wrong size, and bits that this version does not
+/// know. Does not allocate.
+calligraphy_status read_stylus(const calligraphy_stylus* from, StylusState& to) noexcept;
+
 }  // namespace calligraphy::c

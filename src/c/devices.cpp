@@ -138,14 +138,21 @@ calligraphy_status calligraphy_host_device_create(const calligraphy_capabilities
 
 calligraphy_status calligraphy_device_move_pointer(calligraphy_device* device, double x, double y, double pressure,
                                                    uint32_t buttons) {
+  return calligraphy_device_move_pen(device, x, y, pressure, buttons, nullptr);
+}
+
+calligraphy_status calligraphy_device_move_pen(calligraphy_device* device, double x, double y, double pressure,
+                                               uint32_t buttons, const calligraphy_stylus* stylus) {
   auto* const pointer = find_device<PointerDevice>(device);
   if (!pointer) return CALLIGRAPHY_INVALID_HANDLE;
   if (!std::isfinite(x) || !std::isfinite(y) || !(pressure >= 0.0 && pressure <= 1.0)) {
     return refuse(CALLIGRAPHY_INVALID_VALUE,
                   "pointer at (%g, %g) m with pressure %g, must be finite and within 0 and 1", x, y, pressure);
   }
+  StylusState sensed;
+  if (const calligraphy_status status = read_stylus(stylus, sensed)) return status;
   const double scale = find<DeviceObject>(device)->scale;
-  pointer->move(x / scale, y / scale, pressure, buttons);
+  pointer->move(x / scale, y / scale, pressure, buttons, sensed);
   return CALLIGRAPHY_OK;
 }
 

@@ -13,6 +13,7 @@
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/judge/character_index.hpp>
+#include <calligraphy/judge/pen_trace.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/character_set.hpp>
@@ -90,6 +91,13 @@ struct MatchObject {
   std::map<std::pair<std::int32_t, std::string>, std::string> texts;  ///< by remark and language
 };
 
+/// Pen traces, and the text last made of them.
+struct TracesObject {
+  std::vector<PenTrace> traces;
+  std::vector<PenStroke> PenTrace::*begun = nullptr;  ///< which of the last trace's lists was added to last, if any
+  std::string text;
+};
+
 /// By character.
 using Scores = std::vector<CharacterScore>;
 
@@ -113,6 +121,8 @@ template <>
 inline constexpr Kind kind_of<StrokeObject> = Kind::stroke;
 template <>
 inline constexpr Kind kind_of<CharacterIndex> = Kind::index;
+template <>
+inline constexpr Kind kind_of<TracesObject> = Kind::traces;
 
 /// A character of a set in its standard order. @throws Refusal if the set does not have it, FormatError if it is
 /// damaged

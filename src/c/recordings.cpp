@@ -1,3 +1,5 @@
+#include <string>
+
 #include "conversions.hpp"
 #include "objects.hpp"
 #include "structs.hpp"
@@ -19,6 +21,13 @@ RecordedSample sample_of(const calligraphy_tick& tick) {
   return sample;
 }
 
+/// @throws Refusal unless the next tick is like those before it
+void require_same(const Recording& recording, bool is_same, const char* others) {
+  if (is_same) return;
+  throw Refusal(CALLIGRAPHY_INVALID_VALUE, "the recording has " + std::to_string(recording.samples.size()) + " ticks " +
+                                               others + " their samples: it has those of all ticks or of none");
+}
+
 }  // namespace
 }  // namespace calligraphy::c
 
@@ -38,7 +47,34 @@ calligraphy_status calligraphy_recording_create(const calligraphy_page* page, do
 
 calligraphy_status calligraphy_recording_add(calligraphy_recording* recording, const calligraphy_tick* tick) {
   return guarded([&] {
-    auto& samples = object<RecordingObject>(recording).recording.samples;
-    samples.push_back(sample_of(read_struct(tick, "calligraphy_tick")));
+    Recording& into = object<RecordingObject>(recording).recording;
+    const RecordedSample sample = sample_of(read_struct(tick, "calligraphy_tick"));
+    require_same(into, into.inputs.empty(), "with");
+    into.samples.push_back(sample);
+  });
+}
+
+calligraphy_status calligraphy_recording_add_with_input(calligraphy_recording* recording, const calligraphy_tick* tick,
+                                                        const calligraphy_device_state* input) {
+  return guarded([&] {
+    Recording& into = object<RecordingObject>(recording).recording;
+    const RecordedSample sample = sample_of(read_struct(tick, "calligraphy_tick"));
+    const calligraphy_device_state given = read_struct(input, "calligraphy_device_state");
+    require_same(into, into.inputs.size() == into.samples.size(), "without");
+    into.inputs.push_back(state_of(&given));
+    try {
+      into.samples.push_back(sample);
+    } catch (...) {
+      into.inputs.pop_back();
+      throw;
+    }
+  });
+}
+
+calligraphy_status calligraphy_recording_input(const calligraphy_recording* recording, int32_t tick,
+                                               calligraphy_device_state* input) {
+  return guarded([&] {
+    const DeviceState& found = item("tick", object<RecordingObject>(recording).recording.inputs, tick);
+    write_struct(input, "calligraphy_device_state", to_c(found));
   });
 }

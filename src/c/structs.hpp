@@ -15,6 +15,8 @@ namespace calligraphy::c {
 /// grows, its first size is stated here: `template <> inline constexpr std::size_t first_size<calligraphy_grip> = 32;`
 template <class Struct>
 inline constexpr std::size_t first_size = sizeof(Struct);
+template <>
+inline constexpr std::size_t first_size<calligraphy_device_state> = 112;
 
 /// No struct of any version is larger: a size above this was never set.
 inline constexpr std::size_t max_size = 4096;

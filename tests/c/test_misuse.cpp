@@ -33,6 +33,7 @@ struct Everything {
   Owned<calligraphy_index> index;
   Owned<calligraphy_recording> recording;
   Owned<calligraphy_score> score;
+  Owned<calligraphy_traces> traces;
   Owned<calligraphy_renderer> guided;  ///< by a law that was told of a stroke
   const calligraphy_active_stroke* stroke = nullptr;
   calligraphy_mapping mapping = sized<calligraphy_mapping>();
@@ -59,6 +60,9 @@ struct Everything {
     REQUIRE(calligraphy_score_recording(recording.get(), CALLIGRAPHY_TOLERANCE_NORMAL, &score_handle) ==
             CALLIGRAPHY_OK);
     score.reset(score_handle);
+    calligraphy_traces* traces_handle = nullptr;
+    REQUIRE(calligraphy_traces_create(&traces_handle) == CALLIGRAPHY_OK);
+    traces.reset(traces_handle);
     guide();
   }
 
@@ -97,6 +101,7 @@ std::vector<std::pair<std::string, void*>> handles_of(const Everything& all) {
           {"recording", all.recording.get()},
           {"score", all.score.get()},
           {"index", all.index.get()},
+          {"traces", all.traces.get()},
           {"stroke", const_cast<calligraphy_active_stroke*>(all.stroke)}};
 }
 
@@ -135,6 +140,7 @@ std::vector<HandleCall> handle_calls(Everything& all) {
   static auto stroke_score = sized<calligraphy_stroke_score>();
   static auto pen_down_score = sized<calligraphy_pen_down_score>();
   static auto place = sized<calligraphy_stroke_place>();
+  static auto trace_info = sized<calligraphy_trace_info>();
   using Set = calligraphy_set;
   using Page = calligraphy_page;
   using Renderer = calligraphy_renderer;
@@ -144,6 +150,7 @@ std::vector<HandleCall> handle_calls(Everything& all) {
   using Index = calligraphy_index;
   using Recording = calligraphy_recording;
   using Score = calligraphy_score;
+  using Traces = calligraphy_traces;
   return {
       {"set_next", "set", [](void* h) { return calligraphy_set_next(as<Set>(h), 0, &code); }},
       {"set_stroke_count", "set", [](void* h) { return calligraphy_set_stroke_count(as<Set>(h), U'永', &number); }},
@@ -174,6 +181,8 @@ std::vector<HandleCall> handle_calls(Everything& all) {
        [](void* h) { return calligraphy_recording_create(as<Page>(h), 1000.0, &recording); }},
       {"device_point", "device",
        [](void* h) { return calligraphy_device_move_pointer(as<Device>(h), 0.0, 0.0, 0.5, 0); }},
+      {"device_move_pen", "device",
+       [](void* h) { return calligraphy_device_move_pen(as<Device>(h), 0.0, 0.0, 0.5, 0, nullptr); }},
       {"device_intend", "device", [](void* h) { return calligraphy_device_intend(as<Device>(h), points, nullptr); }},
       {"device_advance", "device", [](void* h) { return calligraphy_device_advance(as<Device>(h), 1e-3); }},
       {"device_supply", "device", [&](void* h) { return calligraphy_device_supply(as<Device>(h), &all.state); }},
@@ -200,6 +209,23 @@ std::vector<HandleCall> handle_calls(Everything& all) {
       {"match_remark_text", "match",
        [](void* h) { return calligraphy_match_remark_text(as<Match>(h), 0, "zh", &text); }},
       {"recording_add", "recording", [&](void* h) { return calligraphy_recording_add(as<Recording>(h), &all.tick); }},
+      {"recording_add_with_input", "recording",
+       [&](void* h) { return calligraphy_recording_add_with_input(as<Recording>(h), &all.tick, &all.state); }},
+      {"recording_input", "recording",
+       [&](void* h) { return calligraphy_recording_input(as<Recording>(h), 0, &all.state); }},
+      {"traces_begin", "traces", [](void* h) { return calligraphy_traces_begin(as<Traces>(h), U'十', "a", 0.0); }},
+      {"traces_begin_path", "traces",
+       [](void* h) { return calligraphy_traces_begin_path(as<Traces>(h), CALLIGRAPHY_PEN_DOWN); }},
+      {"traces_add", "traces",
+       [](void* h) { return calligraphy_traces_add(as<Traces>(h), 0.5, 0.5, 0.0, nullptr, -1); }},
+      {"traces_text", "traces", [](void* h) { return calligraphy_traces_text(as<Traces>(h), nullptr, &text); }},
+      {"traces_count", "traces", [](void* h) { return calligraphy_traces_count(as<Traces>(h), &number); }},
+      {"traces_read_info", "traces",
+       [](void* h) { return calligraphy_traces_read_info(as<Traces>(h), 0, &trace_info); }},
+      {"traces_read_path", "traces",
+       [](void* h) {
+         return calligraphy_traces_read_path(as<Traces>(h), 0, CALLIGRAPHY_PEN_DOWN, 0, nullptr, nullptr, 0, &count);
+       }},
       {"score_recording", "recording",
        [](void* h) { return calligraphy_score_recording(as<Recording>(h), CALLIGRAPHY_TOLERANCE_NORMAL, &score); }},
       {"score_character", "score",
@@ -244,7 +270,8 @@ TEST_CASE("a handle that is null, was freed or is of another kind is refused by 
       if (kind == one.kind) continue;
       CHECK(one.call(handle) == CALLIGRAPHY_INVALID_HANDLE);
       CHECK(error_says(std::string(one.kind) + " = 0x"));
-      CHECK(error_says((kind == "index" ? ": a handle of an " : ": a handle of a ") + kind));
+      const std::string article = kind == "traces" ? "" : kind == "index" ? "an " : "a ";
+      CHECK(error_says(": a handle of " + article + kind));
     }
     for (const auto& [kind, handle] : freed) {
       CHECK(one.call(handle) == CALLIGRAPHY_INVALID_HANDLE);
@@ -424,6 +451,14 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
     return calligraphy_page_polyline(all.page.get(), character, index, shape, tolerance, points, 1, &count);
   };
   const auto no_law = sized<calligraphy_guidance_functions>();
+  auto later_stylus = sized<calligraphy_stylus>();
+  later_stylus.known = 64;
+  calligraphy_traces* no_traces = nullptr;
+  std::int32_t buttons[1] = {};
+  calligraphy_traces* const traces = all.traces.get();
+  const auto read_path = [&](std::int32_t trace, std::int32_t place, std::int32_t path) {
+    return calligraphy_traces_read_path(traces, trace, place, path, nullptr, buttons, 1, &count);
+  };
   const auto matched = [&](const double* from, const std::uint32_t* sizes, const void* forms = nullptr,
                            const void* others = nullptr) {
     return calligraphy_match_strokes(all.page.get(), 0, from, sizes, 1, normal,
@@ -500,6 +535,8 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
       {"point", value, "nan", [&] { return calligraphy_device_move_pointer(all.pointer.get(), nan[1], 0.0, 0.5, 0); }},
       {"point", value, "pressure 1.5",
        [&] { return calligraphy_device_move_pointer(all.pointer.get(), 0.0, 0.0, 1.5, 0); }},
+      {"pen", value, "calligraphy_stylus: known = 64, must be a sum of bits, at most 63",
+       [&] { return calligraphy_device_move_pen(all.pointer.get(), 0.0, 0.0, 0.5, 0, &later_stylus); }},
       {"intend", CALLIGRAPHY_INVALID_HANDLE, "expected one of calligraphy_simulated_device_create()",
        [&] { return calligraphy_device_intend(all.pointer.get(), good, nullptr); }},
       {"intend", value, "velocity = nan m/s", [&] { return calligraphy_device_intend(all.device.get(), good, nan); }},
@@ -589,6 +626,51 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
        [&] { return calligraphy_recording_add(all.recording.get(), &no_state); }},
       {"add", value, "status = -1, must be 0 to 5",
        [&] { return calligraphy_recording_add(all.recording.get(), &no_status); }},
+      {"add", value, "calligraphy_device_state is null",
+       [&] { return calligraphy_recording_add_with_input(all.recording.get(), &all.tick, nullptr); }},
+      {"input", value, "tick = 0, must be an index below 0",
+       [&] { return calligraphy_recording_input(all.recording.get(), 0, &all.state); }},
+      {"traces", value, "traces is null", [&] { return calligraphy_traces_create(nullptr); }},
+      {"traces", value, "bytes is null",
+       [&] { return calligraphy_traces_from_memory(nullptr, 3, nullptr, &no_traces); }},
+      {"traces", CALLIGRAPHY_FORMAT_ERROR, "memory",
+       [&] { return calligraphy_traces_from_memory("S 1 0", 5, nullptr, &no_traces); }},
+      {"path", value, "no trace was begun",
+       [&] { return calligraphy_traces_begin_path(traces, CALLIGRAPHY_PEN_DOWN); }},
+      {"trace", value, "set is null", [&] { return calligraphy_traces_begin(traces, U'十', nullptr, 0.0); }},
+      {"trace", value, "em = nan", [&] { return calligraphy_traces_begin(traces, U'十', "a", not_a_number); }},
+      {"traces", value, "trace = 0, must be an index below 0",
+       [&] { return read_path(0, CALLIGRAPHY_PEN_DOWN, 0); }},
+      {"sample", value, "no pen-down and no time in the air was begun",
+       [&] {
+         REQUIRE(calligraphy_traces_begin(traces, U'十', "a", 0.0) == CALLIGRAPHY_OK);
+         return calligraphy_traces_add(traces, 0.5, 0.5, 0.0, nullptr, -1);
+       }},
+      {"path", value, "place = 2, must be 0 to 1", [&] { return calligraphy_traces_begin_path(traces, 2); }},
+      {"text", value, "it has 0 strokes", [&] { return calligraphy_traces_text(traces, nullptr, &text); }},
+      {"sample", value, "calligraphy_stylus: known = 64",
+       [&] {
+         REQUIRE(calligraphy_traces_begin_path(traces, CALLIGRAPHY_PEN_IN_AIR) == CALLIGRAPHY_OK);
+         return calligraphy_traces_add(traces, 0.5, 0.5, 0.0, &later_stylus, -1);
+       }},
+      {"path", value, "the pen is in the air twice in a row",
+       [&] {
+         REQUIRE(calligraphy_traces_add(traces, 0.5, 0.5, 1.0, nullptr, -1) == CALLIGRAPHY_OK);
+         REQUIRE(calligraphy_traces_add(traces, 0.5, 0.5, 0.0, nullptr, -1) == CALLIGRAPHY_OK);
+         return calligraphy_traces_begin_path(traces, CALLIGRAPHY_PEN_IN_AIR);
+       }},
+      {"samples", CALLIGRAPHY_TOO_SMALL, "capacity = 1, but the path has 2 samples",
+       [&] { return read_path(0, CALLIGRAPHY_PEN_IN_AIR, 0); }},
+      {"samples", value, "path = 0, must be an index below 0", [&] { return read_path(0, CALLIGRAPHY_PEN_DOWN, 0); }},
+      {"samples", value, "place = -1", [&] { return read_path(0, -1, 0); }},
+      {"text", value, "the air before stroke 1 has a time of 0 s after 1 s",
+       [&] {
+         REQUIRE(calligraphy_traces_begin_path(traces, CALLIGRAPHY_PEN_DOWN) == CALLIGRAPHY_OK);
+         return calligraphy_traces_text(traces, nullptr, &text);
+       }},
+      {"count", value, "count is null", [&] { return calligraphy_traces_count(traces, nullptr); }},
+      {"info", value, "calligraphy_trace_info is null",
+       [&] { return calligraphy_traces_read_info(traces, 0, nullptr); }},
       {"score", value, "tolerance = 3", [&] { return calligraphy_score_recording(all.recording.get(), 3, &score); }},
       {"score", value, "score is null",
        [&] { return calligraphy_score_recording(all.recording.get(), normal, nullptr); }},
@@ -611,6 +693,7 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
   CHECK(match == nullptr);
   CHECK(recording == nullptr);
   CHECK(score == nullptr);
+  CHECK(no_traces == nullptr);
 }
 
 TEST_CASE("a broken set is a format error, a missing one a file error") {

@@ -515,7 +515,8 @@ TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its 
   CHECK(sizeof(calligraphy_stroke) == 72);
   CHECK(sizeof(calligraphy_mapping) == 112);
   CHECK(sizeof(calligraphy_capabilities) == 168);
-  CHECK(sizeof(calligraphy_device_state) == 112);
+  CHECK(sizeof(calligraphy_device_state) == 168);
+  CHECK(sizeof(calligraphy_stylus) == 56);
   CHECK(sizeof(calligraphy_grip) == 32);
   CHECK(sizeof(calligraphy_pointer_options) == 56);
   CHECK(sizeof(calligraphy_guidance_input) == 256);
@@ -530,6 +531,7 @@ TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its 
   CHECK(sizeof(calligraphy_character_score) == 208);
   CHECK(sizeof(calligraphy_stroke_score) == 56);
   CHECK(sizeof(calligraphy_pen_down_score) == 64);
+  CHECK(sizeof(calligraphy_trace_info) == 32);
 }
 
 TEST_CASE("the names of C are the values of C++") {
@@ -570,5 +572,8 @@ TEST_CASE("the names of C are the values of C++") {
   CHECK(CALLIGRAPHY_REMARK_MISSING == static_cast<int>(StrokeRemarkKind::missing));
   CHECK(CALLIGRAPHY_REMARK_EXTRA == static_cast<int>(StrokeRemarkKind::extra));
   CHECK(CALLIGRAPHY_REMARK_CHARACTER == static_cast<int>(StrokeRemarkKind::character));
+  CHECK(CALLIGRAPHY_BUTTON_TIP == tip_button);
+  CHECK(CALLIGRAPHY_BUTTON_BARREL == barrel_button);
+  CHECK(CALLIGRAPHY_BUTTON_ERASER == eraser_button);
   CHECK(CALLIGRAPHY_REMARK_LOOKALIKE == static_cast<int>(StrokeRemarkKind::lookalike));
 }

@@ -225,7 +225,41 @@ typedef enum calligraphy_device_status {
   CALLIGRAPHY_DEVICE_FAULT = 5               ///< the device cannot continue
 } calligraphy_device_status;
 
-/// One sample of a device, in device axes.
+/// Quantities that a pen may sense besides its place: bits of what is known of them.
+typedef enum calligraphy_stylus_quantity {
+  CALLIGRAPHY_STYLUS_PRESSURE = 1,  ///< of the tip, in its full range: 0 to 1 [1]
+  CALLIGRAPHY_STYLUS_FORCE = 2,     ///< of the tip on the paper [N]
+  CALLIGRAPHY_STYLUS_ALTITUDE = 4,  ///< of the barrel above the x-y plane, up to pi/2 [rad]
+  CALLIGRAPHY_STYLUS_AZIMUTH = 8,   ///< of the barrel: from x towards y [rad]
+  CALLIGRAPHY_STYLUS_TWIST = 16,    ///< about the barrel, counterclockwise from above [rad]
+  CALLIGRAPHY_STYLUS_HEIGHT = 32    ///< of the tip above the paper [m]
+} calligraphy_stylus_quantity;
+
+/// Bits of the buttons of a pen, as in W3C Pointer Events.
+typedef enum calligraphy_button {
+  CALLIGRAPHY_BUTTON_TIP = 1,     ///< the tip is on the paper
+  CALLIGRAPHY_BUTTON_BARREL = 2,  ///< the button of the barrel is pressed
+  CALLIGRAPHY_BUTTON_ERASER = 32  ///< the eraser is on the paper
+} calligraphy_button;
+
+/// What a pen senses besides its place, in the axes of its device or of the paper. Members that are not among the
+/// `known` ones may be zero.
+///
+/// In a browser, `altitude` is altitudeAngle, `azimuth` is -azimuthAngle, and `twist` is minus the event's twist in
+/// radians, since the y axis of a screen points down.
+typedef struct calligraphy_stylus {
+  uint32_t size;    ///< sizeof(calligraphy_stylus)
+  uint32_t known;   ///< sum of the bits of calligraphy_stylus_quantity that the pen senses; 0: none
+  double pressure;  ///< CALLIGRAPHY_STYLUS_PRESSURE [1]
+  double force;     ///< CALLIGRAPHY_STYLUS_FORCE [N]
+  double altitude;  ///< CALLIGRAPHY_STYLUS_ALTITUDE [rad]
+  double azimuth;   ///< CALLIGRAPHY_STYLUS_AZIMUTH [rad]
+  double twist;     ///< CALLIGRAPHY_STYLUS_TWIST [rad]
+  double height;    ///< CALLIGRAPHY_STYLUS_HEIGHT [m]
+} calligraphy_stylus;
+
+/// One sample of a device, in device axes. Its last members are those of calligraphy_stylus; in results they are NaN
+/// where the pen does not sense them.
 typedef struct calligraphy_device_state {
   uint32_t size;          ///< sizeof(calligraphy_device_state)
   int32_t status;         ///< a calligraphy_device_status
@@ -237,6 +271,13 @@ typedef struct calligraphy_device_state {
   double velocity[3];     ///< velocity of the haptic interface point [m/s]
   double force[3];        ///< force at work when the sample is read, for the energy budget [N]
   double force_settling;  ///< how long after the previous sample another force may have been at work [s]
+  uint32_t stylus_known;   ///< sum of the bits of calligraphy_stylus_quantity that the pen senses; 0: none
+  double stylus_pressure;  ///< CALLIGRAPHY_STYLUS_PRESSURE [1]
+  double stylus_force;     ///< CALLIGRAPHY_STYLUS_FORCE [N]
+  double stylus_altitude;  ///< CALLIGRAPHY_STYLUS_ALTITUDE [rad]
+  double stylus_azimuth;   ///< CALLIGRAPHY_STYLUS_AZIMUTH [rad]
+  double stylus_twist;     ///< CALLIGRAPHY_STYLUS_TWIST [rad]
+  double stylus_height;    ///< CALLIGRAPHY_STYLUS_HEIGHT [m]
 } calligraphy_device_state;
 
 /// A simulated device with the hand that holds it, or a device implemented by the program.
@@ -279,6 +320,12 @@ CALLIGRAPHY_API calligraphy_status calligraphy_pointer_device_create(const calli
 /// Wait-free; may be called from another thread than the one that reads the device. Only for a pointer device.
 CALLIGRAPHY_API calligraphy_status calligraphy_device_move_pointer(calligraphy_device* device, double x, double y,
                                                                    double pressure, uint32_t buttons);
+
+/// As calligraphy_device_move_pointer(), with what the pen of a tablet senses, which the samples of the device have as
+/// it is; its pressure there does not move the hand. Null `stylus`: nothing.
+CALLIGRAPHY_API calligraphy_status calligraphy_device_move_pen(calligraphy_device* device, double x, double y,
+                                                               double pressure, uint32_t buttons,
+                                                               const calligraphy_stylus* stylus);
 
 /// Sets where the hand intends the pen to be, and the velocity at which it moves on (3 values each, device
 /// axes) [m, m/s]. Null `velocity`: zero. Only for a simulated device.
@@ -789,6 +836,16 @@ CALLIGRAPHY_API calligraphy_status calligraphy_recording_create(const calligraph
 CALLIGRAPHY_API calligraphy_status calligraphy_recording_add(calligraphy_recording* recording,
                                                              const calligraphy_tick* tick);
 
+/// As calligraphy_recording_add(), with the sample from which the tick was made, which is kept as it is: 152 bytes more.
+/// CALLIGRAPHY_INVALID_VALUE if the recording has ticks without one: it has samples of all ticks or of none.
+CALLIGRAPHY_API calligraphy_status calligraphy_recording_add_with_input(calligraphy_recording* recording,
+                                                                        const calligraphy_tick* tick,
+                                                                        const calligraphy_device_state* input);
+
+/// The sample from which the tick with this index was made.
+CALLIGRAPHY_API calligraphy_status calligraphy_recording_input(const calligraphy_recording* recording, int32_t tick,
+                                                               calligraphy_device_state* input);
+
 /// Scores of all characters of a recording (docs/practice.md).
 typedef struct calligraphy_score calligraphy_score;
 
@@ -874,6 +931,71 @@ CALLIGRAPHY_API calligraphy_status calligraphy_score_pen_down(const calligraphy_
 /// Which stroke each pen-down of a character wrote, with remarks.
 CALLIGRAPHY_API calligraphy_status calligraphy_score_match(const calligraphy_score* score, int32_t character,
                                                            calligraphy_match** match);
+
+// Pen traces.
+
+/// Recorded pens of people writing characters, one trace a character (docs/pen-traces.md).
+typedef struct calligraphy_traces calligraphy_traces;
+
+/// An empty list of traces.
+CALLIGRAPHY_API calligraphy_status calligraphy_traces_create(calligraphy_traces** traces);
+
+/// The traces of a file, from its bytes. `name` is used in messages; null: "memory".
+CALLIGRAPHY_API calligraphy_status calligraphy_traces_from_memory(const void* bytes, size_t size, const char* name,
+                                                                  calligraphy_traces** traces);
+
+/// Begins a trace of the character with this code point. `set`: one word that names the source, such as the writer;
+/// `em`: edge length of the writing square in the units of the file, in which places are rounded to a millionth; 0:
+/// 1000 [1].
+CALLIGRAPHY_API calligraphy_status calligraphy_traces_begin(calligraphy_traces* traces, uint32_t code, const char* set,
+                                                            double em);
+
+/// Where a pen is.
+typedef enum calligraphy_pen_place {
+  CALLIGRAPHY_PEN_DOWN = 0,   ///< on the paper
+  CALLIGRAPHY_PEN_IN_AIR = 1  ///< before a pen-down, or after the last one
+} calligraphy_pen_place;
+
+/// Begins a pen-down, or a time in the air, in the last trace: a calligraphy_pen_place. The pen is in the air at most
+/// once between two pen-downs.
+CALLIGRAPHY_API calligraphy_status calligraphy_traces_begin_path(calligraphy_traces* traces, int32_t place);
+
+/// Appends a sample to what was begun last: its place in the writing square, of which y points up [em], its time, which
+/// never decreases within a trace [s], what the pen senses, null for nothing, and the sum of its buttons, of
+/// calligraphy_button, -1 if unknown.
+CALLIGRAPHY_API calligraphy_status calligraphy_traces_add(calligraphy_traces* traces, double x, double y, double time,
+                                                          const calligraphy_stylus* stylus, int32_t buttons);
+
+/// The text of a file with these traces, in UTF-8; each line of `notice` becomes a comment, null: none. Valid until the
+/// next call for this text, or until the traces are freed. CALLIGRAPHY_INVALID_VALUE if it could not be read back.
+CALLIGRAPHY_API calligraphy_status calligraphy_traces_text(calligraphy_traces* traces, const char* notice,
+                                                           const char** text);
+
+/// Number of traces.
+CALLIGRAPHY_API calligraphy_status calligraphy_traces_count(const calligraphy_traces* traces, int32_t* count);
+
+/// One trace.
+typedef struct calligraphy_trace_info {
+  uint32_t size;       ///< sizeof(calligraphy_trace_info)
+  uint32_t code;       ///< Unicode code point of the character to be written
+  int32_t path_count;  ///< number of pen-downs
+  int32_t has_air;     ///< whether the pen in the air was recorded: then there is one time more than pen-downs
+  const char* set;     ///< names the source; valid until the traces are changed or freed
+  double em;           ///< edge length of the writing square in the units of the file [1]
+} calligraphy_trace_info;
+
+/// The trace with this index.
+CALLIGRAPHY_API calligraphy_status calligraphy_traces_read_info(const calligraphy_traces* traces, int32_t trace,
+                                                                calligraphy_trace_info* info);
+
+/// The pen-down with this index, or the time in the air before it: a calligraphy_pen_place; that after the last
+/// pen-down has its number as index. Writes the number of samples to `count` and, unless `samples` is null, 9 values of
+/// each to it: x and y [em], the time [s], and the members of calligraphy_stylus from `pressure` on, NaN where they are
+/// not known; and to `buttons`, unless it is null, one value of each, -1 if unknown. If `capacity`, in samples, is less
+/// than `count`, returns CALLIGRAPHY_TOO_SMALL and writes no sample.
+CALLIGRAPHY_API calligraphy_status calligraphy_traces_read_path(const calligraphy_traces* traces, int32_t trace,
+                                                                int32_t place, int32_t path, double* samples,
+                                                                int32_t* buttons, size_t capacity, size_t* count);
 
 #ifdef __cplusplus
 }

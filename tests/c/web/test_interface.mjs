@@ -258,6 +258,46 @@ test("a stroke is skipped", () => {
   assert.deepEqual([0, 1, 2].map(() => library.renderer_skip_stroke(renderer)), [1, 1, 0]);
 });
 
+test("pen traces go through their text with what the pen senses", () => {
+  const traces = library.traces_create();
+  const stylus = library.struct("stylus", { known: constants.STYLUS_PRESSURE, pressure: 1 / 3 });
+  library.traces_begin(traces, "一".codePointAt(0), "pupil", 0);
+  library.traces_begin_path(traces, constants.PEN_DOWN);
+  library.traces_add(traces, 0.25, 0.5, 0, stylus, constants.BUTTON_TIP);
+  library.traces_add(traces, 0.75, 0.5, 0.5, null, -1);
+  const bytes = new TextEncoder().encode(library.traces_text(traces, "made here"));
+  const back = library.traces_from_memory(bytes, bytes.length, "back");
+  const info = library.struct("trace_info");
+  library.traces_read_info(back, 0, info);
+  assert.deepEqual([info.path_count, info.has_air, library.text(info.set)], [1, 0, "pupil"]);
+  const count = library.traces_read_path(back, 0, constants.PEN_DOWN, 0, null, null, 0);
+  const samples = new Float64Array(9 * count), buttons = new Int32Array(count);
+  assert.throws(() => library.traces_read_path(back, 0, constants.PEN_DOWN, 0, new Float64Array(17), buttons, 2),
+                /samples .* at least 18 elements, not 17/);
+  assert.throws(() => library.traces_read_path(back, 0, constants.PEN_DOWN, 0, samples, new Int32Array(1), 2),
+                /buttons .* at least 2 elements, not 1/);
+  library.traces_read_path(back, 0, constants.PEN_DOWN, 0, samples, buttons, count);
+  assert.deepEqual([...samples.slice(0, 5)], [0.25, 0.5, 0, 1 / 3, NaN]);
+  assert.deepEqual([...samples.slice(9, 13)], [0.75, 0.5, 0.5, NaN]);
+  assert.deepEqual([...buttons], [1, -1]);
+  library.free(back);
+  library.free(traces);
+  library.discard(stylus);
+  library.discard(info);
+});
+
+test("a pen of a tablet is sensed by its device", () => {
+  const stylus = library.struct("stylus", { known: constants.STYLUS_FORCE, force: 0.7 });
+  const sample = library.struct("device_state");
+  library.device_move_pen(device, 0.08, 0.06, 0.5, 0, stylus);
+  library.device_read(device, sample);
+  assert.deepEqual([sample.stylus_known, sample.stylus_force], [constants.STYLUS_FORCE, 0.7]);
+  assert.ok(Number.isNaN(sample.stylus_pressure));
+  library.device_move_pointer(device, 0.08, 0.06, 0, 0);
+  library.discard(stylus);
+  library.discard(sample);
+});
+
 test("what a call needed is freed", () => {
   /** The address of the next struct: where it goes depends on what else is in memory. */
   const next = () => {
