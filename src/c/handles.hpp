@@ -8,7 +8,19 @@
 namespace calligraphy::c {
 
 /// Kind of an object: the lowest bits of its handle, never all zero.
-enum class Kind : std::uintptr_t { set = 1, page, device, renderer, servo, match, recording, score, stroke, index, traces };
+enum class Kind : std::uintptr_t {
+  set = 1,
+  page,
+  device,
+  renderer,
+  servo,
+  match,
+  recording,
+  score,
+  stroke,
+  index,
+  traces
+};
 
 /// "set", "page" ...
 const char* to_string(Kind kind) noexcept;

@@ -1,6 +1,5 @@
-#include <sstream>
 #include <string>
-#include <string_view>
+#include <utility>
 
 #include "base/stylus_fields.hpp"
 #include "conversions.hpp"
@@ -34,9 +33,8 @@ calligraphy_status calligraphy_traces_from_memory(const void* bytes, size_t size
   return guarded([&] {
     target(traces, "traces");
     if (!bytes) throw_null("bytes");
-    std::istringstream in(std::string(static_cast<const char*>(bytes), size));
     auto made = std::make_shared<TracesObject>();
-    made->traces = read_pen_traces(in, name ? name : "memory");
+    made->traces = parse_pen_traces({static_cast<const char*>(bytes), size}, name ? name : "memory");
     hand_out(traces, std::move(made));
   });
 }
@@ -85,9 +83,7 @@ calligraphy_status calligraphy_traces_text(calligraphy_traces* traces, const cha
   return guarded([&] {
     auto& from = object<TracesObject>(traces);
     target(text, "text");
-    std::ostringstream out;
-    write_pen_traces(out, from.traces, notice ? notice : "");
-    from.text = out.str();
+    from.text = pen_traces_text(from.traces, notice ? notice : "");
     *text = from.text.c_str();
   });
 }

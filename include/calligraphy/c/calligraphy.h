@@ -836,7 +836,7 @@ CALLIGRAPHY_API calligraphy_status calligraphy_recording_create(const calligraph
 CALLIGRAPHY_API calligraphy_status calligraphy_recording_add(calligraphy_recording* recording,
                                                              const calligraphy_tick* tick);
 
-/// As calligraphy_recording_add(), with the sample from which the tick was made, which is kept as it is: 152 bytes more.
+/// As calligraphy_recording_add(), with the sample from which the tick was made, which is kept: 152 bytes more.
 /// CALLIGRAPHY_INVALID_VALUE if the recording has ticks without one: it has samples of all ticks or of none.
 CALLIGRAPHY_API calligraphy_status calligraphy_recording_add_with_input(calligraphy_recording* recording,
                                                                         const calligraphy_tick* tick,

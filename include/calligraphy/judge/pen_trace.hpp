@@ -37,6 +37,8 @@ struct PenTrace {
 /// @throws FormatError naming the line and the value, also when the file is truncated; FileError when the stream fails.
 /// Never returns part of a file
 std::vector<PenTrace> read_pen_traces(std::istream& in, std::string_view name);
+/// Reads the text of a file in this format. @throws FormatError as above
+std::vector<PenTrace> parse_pen_traces(std::string_view text, std::string_view name);
 /// Reads a file in this format. @throws FileError when it cannot be opened, FormatError as above
 std::vector<PenTrace> read_pen_traces(const std::string& path);
 
@@ -44,5 +46,7 @@ std::vector<PenTrace> read_pen_traces(const std::string& path);
 /// becomes a comment. Traces without anything that version 1 lacks are written in version 1.
 /// @throws ValueError naming the trace and the value when read_pen_traces would reject it
 void write_pen_traces(std::ostream& out, const std::vector<PenTrace>& traces, std::string_view notice = {});
+/// What write_pen_traces() writes. @throws ValueError likewise
+std::string pen_traces_text(const std::vector<PenTrace>& traces, std::string_view notice = {});
 
 }  // namespace calligraphy

@@ -10,6 +10,7 @@
 #include <optional>
 #include <ostream>
 #include <system_error>
+#include <utility>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
@@ -96,8 +97,8 @@ bool is_character(char32_t code) {
 
 class TraceParser : private LineReader {
  public:
-  TraceParser(std::istream& in, std::string_view name)
-      : LineReader(bytes_of(in, name), name, max_traces_bytes, max_stroke_bytes) {}
+  TraceParser(ReadBytes bytes, std::string_view name)
+      : LineReader(std::move(bytes), name, max_traces_bytes, max_stroke_bytes) {}
 
   std::vector<PenTrace> parse() {
     std::vector<PenTrace> traces;
@@ -402,7 +403,13 @@ void append_notice(std::string& text, std::string_view notice) {
 
 }  // namespace
 
-std::vector<PenTrace> read_pen_traces(std::istream& in, std::string_view name) { return TraceParser(in, name).parse(); }
+std::vector<PenTrace> read_pen_traces(std::istream& in, std::string_view name) {
+  return TraceParser(bytes_of(in, name), name).parse();
+}
+
+std::vector<PenTrace> parse_pen_traces(std::string_view text, std::string_view name) {
+  return TraceParser(bytes_of(text), name).parse();
+}
 
 std::vector<PenTrace> read_pen_traces(const std::string& path) {
   std::ifstream in = open_file(path, max_traces_bytes);
@@ -410,6 +417,11 @@ std::vector<PenTrace> read_pen_traces(const std::string& path) {
 }
 
 void write_pen_traces(std::ostream& out, const std::vector<PenTrace>& traces, std::string_view notice) {
+  const std::string text = pen_traces_text(traces, notice);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+}
+
+std::string pen_traces_text(const std::vector<PenTrace>& traces, std::string_view notice) {
   const auto needs_version_2 = [](const PenTrace& trace) {
     return times_in_air(trace) > 0 || !fields_of(trace).all.empty();
   };
@@ -438,7 +450,7 @@ void write_pen_traces(std::ostream& out, const std::vector<PenTrace>& traces, st
       if (!is_last) append_points(text, 'S', trace.strokes[stroke], trace.em, fields);
     }
   }
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  return text;
 }
 
 }  // namespace calligraphy
