@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from collections.abc import Iterable
 from functools import partial
 from typing import Any
 
@@ -12,6 +13,8 @@ import numpy as np
 def equal(one: Any, other: Any) -> bool:
     """Equality in which NaN equals NaN, and arrays and lists are compared as a whole."""
     if isinstance(one, np.ndarray):
+        if one.dtype.names and isinstance(other, np.ndarray) and one.dtype == other.dtype:  # a structured array
+            return all(equal(one[name], other[name]) for name in one.dtype.names)
         return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
     if isinstance(one, list) and isinstance(other, list):
         return len(one) == len(other) and all(map(equal, one, other))
@@ -39,6 +42,11 @@ def brief(value: Any) -> str:
     return line if len(line) <= 80 else f"{line[:77]}..."
 
 
+def represented(record: Any, names: Iterable[str]) -> str:
+    """A call that makes the record again, from its attributes with these names."""
+    return f"{type(record).__name__}({', '.join(f'{n}={shown(getattr(record, n))}' for n in names)})"
+
+
 class Struct:
     """Methods copied into every class that has `__match_args__`."""
 
@@ -50,7 +58,7 @@ class Struct:
         return all(equal(getattr(self, name), getattr(other, name)) for name in self.__match_args__)
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(f'{n}={shown(getattr(self, n))}' for n in self.__match_args__)})"
+        return represented(self, self.__match_args__)
 
     def __reduce__(self) -> Any:
         values = {name: getattr(self, name) for name in self.__match_args__}

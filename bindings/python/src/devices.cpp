@@ -159,7 +159,7 @@ void add_devices(py::module_& module) {
   py::class_<PointerDevice, HapticDevice>(module, "PointerDevice", py::is_final())
       .def(py::init<const Capabilities&, const GripImpedance&, const PointerOptions&>(), "profile"_a,
            "grip"_a = GripImpedance{}, "options"_a = PointerOptions{})
-      .def("move", &PointerDevice::move, "x"_a, "y"_a, "pressure"_a, "buttons"_a = 0)
+      .def("move", &PointerDevice::move, "x"_a, "y"_a, "pressure"_a, "buttons"_a = 0, "stylus"_a = StylusState{})
       .def_property_readonly("intention", when_idle(&PointerDevice::intention));
 
   module.def("install_emergency_stop", &install_for_python,

@@ -303,11 +303,16 @@ std::string fields_text(const std::string& what = "A dict") {
 template <class Row>
 class Columns {
  public:
+  /// A struct becomes a column for each of its members, of which one whose name is taken is of the tip of the pen.
   template <class Member>
   void add(const char* name, const Row& row, const Member& member) {
-    names_.append(name);
-    formats_.append(format<Member>());
-    offsets_.append(reinterpret_cast<const char*>(&member) - reinterpret_cast<const char*>(&row));
+    if constexpr (has_fields<Member>) {
+      each_field<Member>([&](const auto& field) { add(field.name, row, member.*field.member); });
+    } else {
+      names_.append(names_.contains(name) ? std::string("tip_") + name : name);
+      formats_.append(format<Member>());
+      offsets_.append(reinterpret_cast<const char*>(&member) - reinterpret_cast<const char*>(&row));
+    }
   }
   py::dtype dtype() const { return py::dtype(names_, formats_, offsets_, sizeof(Row)); }
 
@@ -319,7 +324,8 @@ class Columns {
     } else if constexpr (std::is_enum_v<Member>) {
       return (std::is_signed_v<std::underlying_type_t<Member>> ? "i" : "u") + std::to_string(sizeof(Member));
     } else if constexpr (std::is_arithmetic_v<Member>) {
-      return (std::is_floating_point_v<Member> ? "f" : "i") + std::to_string(sizeof(Member));
+      const char* const kind = std::is_floating_point_v<Member> ? "f" : std::is_unsigned_v<Member> ? "u" : "i";
+      return kind + std::to_string(sizeof(Member));
     } else {
       return "(" + std::to_string(Member::RowsAtCompileTime) + ",)f8";
     }

@@ -22,10 +22,64 @@ PenStroke pen_stroke(const ArrayLike& samples, const char* name) {
   return result;
 }
 
-PenTrace trace_of(char32_t character, const std::vector<ArrayLike>& strokes, std::string set, double em) {
-  PenTrace result{character, std::move(set), em, {}};
-  for (const ArrayLike& stroke : strokes) result.strokes.push_back(pen_stroke(stroke, "strokes"));
+constexpr py::ssize_t stylus_size = std::tuple_size_v<std::remove_cvref_t<decltype(fields_of<StylusState>)>>;
+
+/// Lists of arrays as PenTrace has them in Python, with their names.
+struct GivenPaths {
+  const char *points_name, *stylus_name, *buttons_name;
+  const std::vector<ArrayLike>&points, &stylus, &buttons;
+};
+
+/// Checks that there is an array for each path, or none. @throws ValueError
+void require_each(const char* name, const std::vector<ArrayLike>& given, const GivenPaths& paths) {
+  if (given.empty() || given.size() == paths.points.size()) return;
+  throw ValueError(formatted("{}: expected as many arrays as {}, {}, or none, got {}", name, paths.points_name,
+                             paths.points.size(), given.size()));
+}
+
+std::vector<PenStroke> pen_strokes(const GivenPaths& given) {
+  require_each(given.stylus_name, given.stylus, given);
+  require_each(given.buttons_name, given.buttons, given);
+  std::vector<PenStroke> result;
+  for (std::size_t i = 0; i < given.points.size(); ++i) {
+    PenStroke& stroke = result.emplace_back(pen_stroke(given.points[i], given.points_name));
+    const auto size = static_cast<py::ssize_t>(stroke.size());
+    if (!given.stylus.empty()) {
+      const Doubles rows = doubles(given.stylus[i], given.stylus_name, stylus_size);
+      if (rows.shape(0) != size) refuse_shape(given.stylus_name, formatted("({}, {})", size, stylus_size), rows);
+      const double* from = rows.data();
+      for (TimedPoint& point : stroke) {
+        each_field<StylusState>([&](const auto& field) { point.stylus.*field.member = *from++; });
+      }
+    }
+    if (!given.buttons.empty()) {
+      const Doubles row = doubles(given.buttons[i], given.buttons_name);
+      if (row.size() != size) refuse_shape(given.buttons_name, formatted("({},)", size), row);
+      constexpr int most = std::numeric_limits<std::int32_t>::max();
+      const double* from = row.data();
+      for (TimedPoint& point : stroke) {
+        const double value = *from++;
+        if (!(value >= -1.0 && value <= most && std::trunc(value) == value)) {
+          throw ValueError(
+              formatted("{}: expected integers from -1 to {}, got {}", given.buttons_name, most, value));
+        }
+        point.buttons = static_cast<std::int32_t>(value);
+      }
+    }
+  }
   return result;
+}
+
+using Lists = std::vector<ArrayLike>;
+
+PenTrace trace_of(char32_t character, const Lists& strokes, std::string set, double em, const Lists& stylus,
+                  const Lists& buttons, const Lists& air, const Lists& air_stylus, const Lists& air_buttons) {
+  if (!air.empty() && air.size() != strokes.size() + 1) {
+    throw ValueError(formatted("air: expected one array more than strokes, {}, or none, got {}", strokes.size() + 1,
+                               air.size()));
+  }
+  return {character, std::move(set), em, pen_strokes({"strokes", "stylus", "buttons", strokes, stylus, buttons}),
+          pen_strokes({"air", "air_stylus", "air_buttons", air, air_stylus, air_buttons})};
 }
 
 std::vector<PenPath> paths_of(const std::vector<ArrayLike>& paths) {
@@ -48,17 +102,63 @@ MatchResult match_of(const Accepted& character, const std::vector<ArrayLike>& pa
   return match_strokes(accepted, drawn, chosen, others ? &*others : nullptr);
 }
 
-using Arrays = py::typing::List<Doubles>;
+using Paths = std::vector<PenStroke> PenTrace::*;
 
-Arrays pen_downs(const PenTrace& trace) {
-  Arrays result;
-  for (const PenStroke& stroke : trace.strokes) {
+template <Paths paths>
+py::typing::List<Doubles> places_of(const PenTrace& trace) {
+  py::typing::List<Doubles> result;
+  for (const PenStroke& stroke : trace.*paths) {
     Doubles rows({static_cast<py::ssize_t>(stroke.size()), py::ssize_t{3}});
     double* to = rows.mutable_data();
     for (const TimedPoint& sample : stroke) *to++ = sample.point.x(), *to++ = sample.point.y(), *to++ = sample.time;
     result.append(rows);
   }
   return result;
+}
+
+template <Paths paths>
+py::typing::List<Doubles> stylus_of(const PenTrace& trace) {
+  py::typing::List<Doubles> result;
+  for (const PenStroke& stroke : trace.*paths) {
+    Doubles rows({static_cast<py::ssize_t>(stroke.size()), stylus_size});
+    double* to = rows.mutable_data();
+    for (const TimedPoint& sample : stroke) {
+      each_field<StylusState>([&](const auto& field) { *to++ = sample.stylus.*field.member; });
+    }
+    result.append(rows);
+  }
+  return result;
+}
+
+template <Paths paths>
+py::typing::List<py::array_t<std::int32_t>> buttons_of(const PenTrace& trace) {
+  py::typing::List<py::array_t<std::int32_t>> result;
+  for (const PenStroke& stroke : trace.*paths) {
+    py::array_t<std::int32_t> row(static_cast<py::ssize_t>(stroke.size()));
+    std::int32_t* to = row.mutable_data();
+    for (const TimedPoint& sample : stroke) *to++ = sample.buttons;
+    result.append(row);
+  }
+  return result;
+}
+
+/// Without what was not recorded.
+py::object represented(const py::object& self) {
+  const auto& trace = self.cast<const PenTrace&>();
+  const auto any = [](const std::vector<PenStroke>& paths, const auto& has) {
+    return std::any_of(paths.begin(), paths.end(),
+                       [&](const PenStroke& path) { return std::any_of(path.begin(), path.end(), has); });
+  };
+  const auto has_stylus = [](const TimedPoint& each) { return !(each.stylus == StylusState()); };
+  const auto has_buttons = [](const TimedPoint& each) { return each.buttons >= 0; };
+  py::list names;
+  for (const char* name : {"character", "strokes", "set", "em"}) names.append(name);
+  if (any(trace.strokes, has_stylus)) names.append("stylus");
+  if (any(trace.strokes, has_buttons)) names.append("buttons");
+  if (!trace.air.empty()) names.append("air");
+  if (any(trace.air, has_stylus)) names.append("air_stylus");
+  if (any(trace.air, has_buttons)) names.append("air_buttons");
+  return py::module_::import("calligraphy._struct").attr("represented")(self, names);
 }
 
 }  // namespace
@@ -88,11 +188,32 @@ void add_judge(py::module_& module) {
   add_struct<MatchResult>(module).def("count", &MatchResult::count, "kind"_a);
 
   py::class_<PenTrace>(module, "PenTrace")
-      .def(py::init(&trace_of), "character"_a, "strokes"_a, "set"_a = "unnamed", "em"_a = 1000.0)
+      .def(py::init(&trace_of), "character"_a, "strokes"_a, "set"_a = "unnamed", "em"_a = 1000.0, py::kw_only(),
+           "stylus"_a = Lists(), "buttons"_a = Lists(), "air"_a = Lists(), "air_stylus"_a = Lists(),
+           "air_buttons"_a = Lists())
       .def_readonly("character", &PenTrace::character)
-      .def_property_readonly("strokes", &pen_downs, "one array (n, 3) per pen-down, copied: x, y [em], time [s]")
+      .def_property_readonly("strokes", &places_of<&PenTrace::strokes>,
+                             "one array (n, 3) per pen-down, copied: x, y [em], time [s]")
+      .def_property_readonly("stylus", &stylus_of<&PenTrace::strokes>,
+                             "what the pen sensed besides: one array (n, 6) per pen-down, copied, whose columns are "
+                             "stylus_columns; NaN where it is not known")
+      .def_property_readonly("buttons", &buttons_of<&PenTrace::strokes>,
+                             "one array (n,) of integers per pen-down, copied: the bits of tip_button, barrel_button "
+                             "and eraser_button; -1 where they are not known")
+      .def_property_readonly("air", &places_of<&PenTrace::air>, "+ Arrays as in `strokes`.")
+      .def_property_readonly("air_stylus", &stylus_of<&PenTrace::air>, "as `stylus`, of the pen in the air")
+      .def_property_readonly("air_buttons", &buttons_of<&PenTrace::air>, "as `buttons`, of the pen in the air")
+      .def("__repr__", &represented)
       .def_readonly("set", &PenTrace::set)
       .def_readonly("em", &PenTrace::em);
+  py::list columns;
+  each_field<StylusState>([&](const auto& field) { columns.append(field.name); });
+  module.attr("stylus_columns") = py::tuple(columns);
+  module.attr("tip_button") = tip_button;
+  module.attr("barrel_button") = barrel_button;
+  module.attr("eraser_button") = eraser_button;
+  add_types<StylusState>(module);
+  module.def("set_tilt", &set_tilt, "stylus"_a, "tilt_x"_a, "tilt_y"_a);
   module.def("read_pen_traces", from_file(&read_pen_traces), "path"_a);
   module.def("write_pen_traces", to_file(&write_pen_traces), "path"_a, "traces"_a, "notice"_a = "",
              "+ Atomically. Raises FileError.");

@@ -15,27 +15,52 @@
 namespace calligraphy::python {
 namespace {
 
-/// A recording from a structured array with these columns.
-Recording recording_of(double rate, const ArrayLike& samples, std::uint32_t page, std::string law) {
-  const py::array rows = py::module_::import("numpy").attr("asarray")(samples, dtype_of_struct<RecordedSample>());
-  if (rows.ndim() != 1) throw ValueError("samples: expected shape (n,), got " + shape_of(rows));
+/// The structs of a structured array with their columns. @throws ValueError naming the argument
+template <class Row>
+std::vector<Row> structs_of(const ArrayLike& given, const char* name) {
+  const py::array rows = py::module_::import("numpy").attr("asarray")(given, dtype_of_struct<Row>());
+  if (rows.ndim() != 1) refuse_shape(name, "(n,)", rows);
+  std::vector<Row> result(static_cast<std::size_t>(rows.size()));
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    std::memcpy(static_cast<void*>(&result[i]), rows.data(static_cast<py::ssize_t>(i)), sizeof(Row));
+  }
+  return result;
+}
+
+/// A recording from structured arrays.
+Recording recording_of(double rate, const ArrayLike& samples, std::uint32_t page, std::string law,
+                       const ArrayLike& inputs) {
+  Recording result{rate, structs_of<RecordedSample>(samples, "samples"), page, std::move(law),
+                   structs_of<DeviceState>(inputs, "inputs")};
   if (!(std::isfinite(rate) && rate > 0.0))
     throw ValueError("rate: expected a finite number above 0, got " + std::to_string(rate));
-  Recording result{rate, std::vector<RecordedSample>(static_cast<std::size_t>(rows.size())), page, std::move(law)};
   for (std::size_t i = 0; i < result.samples.size(); ++i) {
-    RecordedSample& sample = result.samples[i];
-    std::memcpy(static_cast<void*>(&sample), rows.data(static_cast<py::ssize_t>(i)), sizeof sample);
+    const RecordedSample& sample = result.samples[i];
     if (sample.state > InteractionState::writing || sample.status > TickStatus::bad_law) {
       throw ValueError(formatted("samples[{}]: state {}, status {}: no such state or status", i,
-                            static_cast<int>(sample.state), static_cast<int>(sample.status)));
+                                 static_cast<int>(sample.state), static_cast<int>(sample.status)));
+    }
+  }
+  if (!result.inputs.empty() && result.inputs.size() != result.samples.size()) {
+    throw ValueError(formatted("inputs: expected one for each of {} samples, or none, got {}", result.samples.size(),
+                               result.inputs.size()));
+  }
+  for (std::size_t i = 0; i < result.inputs.size(); ++i) {
+    const DeviceState& input = result.inputs[i];
+    if (input.status > DeviceStatus::fault || input.fault > DeviceFault::device_error) {
+      throw ValueError(formatted("inputs[{}]: status {}, fault {}: no such status or fault", i,
+                                 static_cast<int>(input.status), static_cast<int>(input.fault)));
     }
   }
   return result;
 }
 
-py::array samples_of(const py::object& self) {
-  const auto& samples = self.cast<const Recording&>().samples;
-  py::array result(dtype_of_struct<RecordedSample>(), samples.size(), samples.data(), self);
+/// A read-only view of one of the lists of a recording.
+template <auto member>
+py::array rows_of(const py::object& self) {
+  const auto& rows = self.cast<const Recording&>().*member;
+  py::array result(dtype_of_struct<typename std::remove_cvref_t<decltype(rows)>::value_type>(), rows.size(),
+                   rows.data(), self);
   result.attr("flags").attr("writeable") = false;
   return result;
 }
@@ -66,13 +91,17 @@ void add_practice(py::module_& module) {
       .def("direction_mistakes", &CharacterScore::direction_mistakes);
 
   module.attr("sample_dtype") = dtype_of_struct<RecordedSample>();
+  module.attr("input_dtype") = dtype_of_struct<DeviceState>();
   py::class_<Recording>(module, "Recording")
-      .def(py::init(&recording_of), "rate"_a, "samples"_a, "page"_a = 0, "law"_a = "")
+      .def(py::init(&recording_of), "rate"_a, "samples"_a, "page"_a = 0, "law"_a = "", "inputs"_a = py::list())
       .def_readonly("rate", &Recording::rate)
       .def_readonly("page", &Recording::page)
       .def_readonly("law", &Recording::law)
-      .def_property_readonly("samples", &samples_of,
+      .def_property_readonly("samples", &rows_of<&Recording::samples>,
                              "A structured array (n,), a read-only view of the recording (sample_dtype).")
+      .def_property_readonly("inputs", &rows_of<&Recording::inputs>,
+                             "+ A structured array (n,) or (0,), a read-only view of the recording (input_dtype); "
+                             "`force` is that of the device, `tip_force` that of the pen on the paper.")
       .def("__len__", [](const Recording& self) { return self.samples.size(); });
   module.def("write_recording", to_file(&write_recording), "path"_a, "recording"_a, "+ Atomically. Raises FileError.");
   module.def("read_recording", from_file(&read_recording), "path"_a);

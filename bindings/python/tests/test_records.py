@@ -272,9 +272,14 @@ def test_pages_are_equal_if_their_characters_are():
 #: Objects other than structs that support pickling and copying.
 RESULTS = {
     "NearestPoints": lambda: cal.nearest_point([[0, 0], [1, 2], [3, 0]], [[0, 1], [2, 2], [np.nan, 0]]),
-    "Recording": lambda: cal.Recording(500.0, np.ones(3, dtype=cal.sample_dtype)),
+    "Recording": lambda: cal.Recording(
+        500.0, np.ones(3, dtype=cal.sample_dtype), inputs=np.ones(3, dtype=cal.input_dtype)
+    ),
     "StrokeInput": lambda: cal.StrokeInput(1, [[0, 0], [1, 1]], [1.0, 2.0], ink=cal.StrokeInk(start=0.1)),
-    "PenTrace": lambda: cal.PenTrace("一", [[[0, 0, 0], [1, 0, 0.5]], np.zeros((0, 3))], set="made", em=500.0),
+    "PenTrace": lambda: cal.PenTrace(
+        "一", [[[0, 0, 0], [1, 0, 0.5]], np.zeros((0, 3))], set="made", em=500.0,
+        stylus=[np.full((2, 6), 0.5), np.zeros((0, 6))], buttons=[[1, -1], []], air=[[], [[0, 0, 0.6]], []],
+    ),
     "CharacterList": lambda: cal.CharacterList(
         [cal.built_in_characters()["永"]], cal.Provenance(source="mine", licence="MIT")
     ),
@@ -283,9 +288,9 @@ RESULTS = {
 }
 PARTS = {
     "NearestPoints": ("parameter", "point", "distance", "tangent", "status", "certified"),
-    "Recording": ("rate", "samples"),
+    "Recording": ("rate", "samples", "inputs"),
     "StrokeInput": ("id", "control_points", "attraction_factors", "elements", "ink"),
-    "PenTrace": ("character", "set", "em", "strokes"),
+    "PenTrace": ("character", "set", "em", "strokes", "stylus", "buttons", "air"),
     "CharacterList": ("characters", "provenance"),
     "TypicalStroke": ("id", "name"),
     "FeedbackMode": ("name", "value"),
@@ -302,8 +307,8 @@ def test_results_survive_pickling_and_copying(name, again):
         one, other = getattr(original, part), getattr(result, part)
         if isinstance(one, np.ndarray) and one.dtype.names is None:
             assert np.array_equal(one, other, equal_nan=one.dtype.kind == "f") and one.dtype == other.dtype
-        elif part == "strokes":
-            assert len(one) == len(other) == 2 and all(map(np.array_equal, one, other))
+        elif part in ("strokes", "stylus", "buttons", "air"):
+            assert len(one) == len(other) >= 2 and all(map(np.array_equal, one, other))
         else:
             assert np.array_equal(one, other) if isinstance(one, np.ndarray) else one == other
 
@@ -328,9 +333,13 @@ def test_other_classes_have_a_one_line_repr(written):
         (characters["永"], "Character(永, 5 strokes)"),
         (cal.CharacterSet(characters), f"CharacterSet({len(characters.characters)} characters)"),
         (renderer, "HapticRenderer(page of 1 at 1000 Hz)"),
-        (recording, f"Recording(rate=1000.0, samples=array({len(recording)},), page={recording.page}, law='linear: 600 N/m')"),
+        (recording,
+         f"Recording(rate=1000.0, samples=array({len(recording)},), page={recording.page}, law='linear: 600 N/m', "
+         f"inputs=array({len(recording)},))"),
         (cal.PenTrace("一", [[[0, 0, 0]]], set="mine"),
          "PenTrace(character='一', strokes=[[[0.0, 0.0, 0.0]]], set='mine', em=1000.0)"),
+        (cal.PenTrace("一", [[[0, 0, 0]]], buttons=[[1]], air=[[], []]),
+         "PenTrace(character='一', strokes=[[[0.0, 0.0, 0.0]]], set='unnamed', em=1000.0, buttons=[[1]], air=[[], []])"),
         (cal.CharacterList([], cal.Provenance(source="me")),
          "CharacterList(characters=[], provenance=Provenance(source='me', licence='', attribution='', licence_text=''))"),
     ]  # fmt: skip

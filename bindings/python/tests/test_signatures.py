@@ -43,7 +43,9 @@ def test_signatures_have_the_names_defaults_and_kinds_of_the_arguments():
     assert str(inspect.signature(cal.StrokeElement.point)) == "(self, t)"
     assert str(inspect.signature(cal.StrokeElement([[0, 0], [1, 1]]).point)) == "(t)"
     assert str(inspect.signature(cal.RendererOptions.for_device)) == "(capabilities, scale=1.0)"
-    assert str(inspect.signature(cal.PenOrientation)) == "(*, tilt=nan, azimuth=nan)"
+    assert str(inspect.signature(cal.StylusState)) == (
+        "(*, pressure=nan, force=nan, altitude=nan, azimuth=nan, twist=nan, height=nan)"
+    )
     assert str(inspect.signature(cal.InvalidValue)) == "(*args)"
     assert str(inspect.signature(cal.CharacterSet)) == "(*args, **kwargs)", "its constructor is overloaded"
     assert str(inspect.signature(cal.VelocityEstimator)) == "(cutoff=50.0)"
