@@ -9,7 +9,7 @@
 namespace calligraphy::tools {
 namespace {
 
-constexpr double longest_in_memory = 0.25;  ///< [s]
+constexpr double longest_in_memory = 0.1;  ///< [s]
 
 }  // namespace
 

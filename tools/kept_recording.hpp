@@ -17,7 +17,7 @@ namespace calligraphy::tools {
 inline constexpr const char* recording_suffix = ".recording.gz";
 inline constexpr const char* partial_suffix = ".part";  ///< after it, until the recording is finished
 
-/// Stores what a recording has gained, at least every quarter of a second while it is called. Until it is finished the
+/// Stores what a recording has gained, at least every tenth of a second while it is called. Until it is finished the
 /// file has a name of its own: whatever stops the program, everything up to a moment before can be read from it.
 class KeptRecording {
  public:

@@ -121,7 +121,6 @@ class RecordingParser : private LineReader {
     if (line() != ticks_line) fail("expected the ticks, found the end of the file");
     stored_.recording.page = page_id(setup().page);
     const std::uint64_t checksum = read_ticks();
-    if (stored_.recording.inputs.empty()) fail("a recording without a tick");
     make_ticks();
     stored_.has_same_forces = stored_.is_complete && checksum == force_checksum(stored_.recording.samples);
     return std::move(stored_);

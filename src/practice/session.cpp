@@ -118,7 +118,9 @@ Recording replay_page(const PracticePage& page, ReplayDevice& device, const Sess
 
 Recording replayed(const Recording& recording) {
   if (!recording.setup) throw ValueError("recording: without a set-up its ticks cannot be made again");
-  if (recording.inputs.empty()) throw ValueError("recording: without inputs its ticks cannot be made again");
+  if (recording.inputs.empty() && !recording.samples.empty()) {
+    throw ValueError("recording: without inputs its ticks cannot be made again");
+  }
   const RecordingSetup& setup = *recording.setup;
   RendererOptions options = setup.renderer;
   if (setup.has_own_law) options.guidance.force = GuidanceOptions().force;  // only its forces are of the author's law

@@ -144,10 +144,6 @@ TEST_CASE("a file that was cut off anywhere has all ticks that were written whol
     CAPTURE(length);
     const auto whole = static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(ticks),
                                                            text.begin() + static_cast<std::ptrdiff_t>(length), '\n'));
-    if (whole == 0) {
-      CHECK_THROWS_AS(read(text.substr(0, length)), FormatError);
-      continue;
-    }
     const StoredRecording stored = read(text.substr(0, length));
     CHECK_FALSE(stored.is_complete);
     CHECK_FALSE(stored.has_same_forces);

@@ -74,7 +74,7 @@ class Recordings(ProgramTest):
                       done.stderr)
         kept, = self.replayed("out")["recordings"]
         self.assertIs(kept["complete"], False)
-        self.assertGreater(kept["ticks"], 100)
+        self.assertGreater(kept["ticks"], 0)
         self.assertIn("out/summary.json: already there, from an unfinished run", self.run_program(
             "write", "永", "--out", "out", code=1).stderr)
 

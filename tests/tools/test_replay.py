@@ -245,7 +245,7 @@ class Refusals(ReplayTest):
     def test_usage_errors_are_one_line_and_exit_with_two(self):
         traces = self.traces(character("十", TEN))
         for arguments, words in (
-                ([], ["TRACES"]),
+                ([], ["WHAT"]),
                 ([traces, "--only", ""], ["TEXT"]),
                 ([traces, "--device", "phantom"], ["--device", "simulated:", "desktop"]),
                 ([traces, "--out", ""], ["--out"]),

@@ -19,6 +19,7 @@ class RecordingWriter {
   /// Writes everything but the ticks. The stream must outlive the writer.
   /// @throws ValueError when the recording has no set-up
   RecordingWriter(std::ostream& out, const Recording& recording);
+  /// After the move, the source may only be destroyed.
   RecordingWriter(RecordingWriter&&) noexcept;
   ~RecordingWriter();
 
@@ -43,7 +44,7 @@ struct StoredRecording {
   bool has_same_forces = false;  ///< the forces are those of the session to the last bit; false if incomplete
 };
 
-/// Reads what RecordingWriter wrote, whole or cut off anywhere after the first tick. `name` is used in messages.
+/// Reads what RecordingWriter wrote, whole or cut off anywhere after the set-up. `name` is used in messages.
 /// @throws FormatError naming the line and the value; FileError when the stream fails
 StoredRecording read_recording(std::istream& in, std::string_view name);
 /// Reads a file in this format. @throws FileError when it cannot be opened, FormatError as above

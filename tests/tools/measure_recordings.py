@@ -1,0 +1,118 @@
+"""Measures what is left of recordings when a program is killed, a disk is full or a file is damaged (docs/recordings.md).
+
+usage: measure_recordings.py PROGRAM [--kills N --emulated EMULATED_PHANTOM] [--mutants N] [--seed N]
+
+--kills kills the program while a person, simulated behind an emulated Phantom, writes with it, at random moments. How many
+samples the device had sent until then is what the emulated device says, not the program.
+"""
+import argparse
+import gzip
+import json
+import os
+import random
+import re
+import signal
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+#: Starts the program and notes its process.
+SHIM = '#!/bin/sh\necho $$ > "$PID_FILE"\nexec "$PROGRAM" "$@"\n'
+
+
+def replayed(program, path):
+    done = subprocess.run([program, "replay", path, "--json"], capture_output=True, text=True)
+    return done, json.loads(done.stdout)["recordings"][0] if done.stdout else None
+
+
+def kill_once(program, emulated, directory, seconds):
+    """How much of what the device had sent is lost [s], and how many ticks were kept."""
+    shim, pid = directory / "shim", directory / "pid"
+    shim.write_text(SHIM)
+    shim.chmod(0o755)
+    out = directory / "out"
+    running = subprocess.Popen([emulated, "--write", "永", "--", str(shim), "write", "永永永永", "--device", "phantom", "--out",
+                                str(out)], cwd=directory, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                               env={**os.environ, "PROGRAM": str(program), "PID_FILE": str(pid)})
+    while not list(out.glob("*.part")):
+        time.sleep(0.005)
+    time.sleep(seconds)
+    os.kill(int(pid.read_text()), signal.SIGKILL)
+    _, told = running.communicate()
+    sent = int(re.search(r"(\d+) reports sent", told).group(1))
+    part, = out.glob("*.part")
+    done, kept = replayed(program, part)
+    assert done.returncode == 0 and kept["complete"] is False, done.stderr
+    assert json.loads((out / "summary.json").read_text())["finished"] is False
+    return sent, kept["ticks"]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program", type=lambda text: Path(text).resolve())
+    parser.add_argument("--emulated")
+    parser.add_argument("--kills", type=int, default=0)
+    parser.add_argument("--mutants", type=int, default=0)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    draw = random.Random(options.seed)
+    if options.kills > 0:
+        lost = []
+        for _ in range(options.kills):
+            with tempfile.TemporaryDirectory() as directory:
+                sent, kept = kill_once(options.program, options.emulated, Path(directory), draw.uniform(0.3, 6.0))
+            lost.append(sent - kept)
+        # Reports before the pen was in front of the paper are no samples: at most as many as the fewest that are missing.
+        print(f"killed {len(lost)} times: reports of the device that are not in the recording: "
+              f"{min(lost)} to {max(lost)}, that is at most {max(lost)} ms, from the first report on")
+    if options.mutants > 0:
+        mutate(options.program, options.mutants, draw)
+
+
+def mutate(program, count, draw):
+    """Damages recordings, compressed and plain, and pen traces of version 2, and reads them."""
+    with tempfile.TemporaryDirectory() as name:
+        directory = Path(name)
+        subprocess.run([program, "write", "十", "--mode", "force", "--out", directory / "out"], check=True,
+                       capture_output=True)
+        whole = (directory / "out/page-1-force-1.recording.gz").read_bytes()
+        text = gzip.decompress(whole)
+        plain = text[:text.index(b"\nticks\n") + 3000]
+        traces = ("V 2\nC 十 5341 made-up 1000 2 1\nF pressure altitude azimuth twist height buttons tip\n".replace(" tip", "")
+                  + "S 2 100 500 0 0.25 1.1 0.7 -2 0 1 900 480 330 0.5 1.1 0.7 -2 - 1\n"
+                  "A 1 500 300 600 0 1 1 1 0.01 0\nS 2 500 80 900 0.25 1 1 1 0 33 500 940 1400 - 1 1 1 0 1\n").encode()
+        sources = [whole, plain, traces, gzip.compress(traces)]
+        worst_time, worst_memory, outcomes = 0.0, 0, {}
+        for i in range(count):
+            data = bytearray(sources[i % len(sources)])
+            for _ in range(draw.choice((1, 1, 2, 5, 20))):
+                at = draw.randrange(len(data))
+                kind = draw.randrange(4)
+                if kind == 0:
+                    data[at] = draw.randrange(256)
+                elif kind == 1:
+                    del data[at:at + draw.randrange(1, 40)]
+                elif kind == 2:
+                    data[at:at] = data[draw.randrange(len(data)):][:draw.randrange(1, 200)]
+                else:
+                    data[at:at] = draw.choice((b"9" * 20, b"-1", b"nan", b"inf", b"1e308", b",,,", b"\n", b"\0"))
+                data = data or bytearray(b"x")
+            path = directory / "mutant"
+            path.write_bytes(bytes(data))
+            begun = time.monotonic()
+            running = subprocess.Popen([program, "replay", path, "--json"], stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+            _, status, usage = os.wait4(running.pid, 0)
+            running.returncode = os.waitstatus_to_exitcode(status)
+            worst_time = max(worst_time, time.monotonic() - begun)
+            worst_memory = max(worst_memory, usage.ru_maxrss)
+            outcomes[running.returncode] = outcomes.get(running.returncode, 0) + 1
+            if running.returncode not in (0, 1) or usage.ru_maxrss > 64 * 1024:
+                print(f"mutant {i}: exit {running.returncode}, {usage.ru_maxrss} kB")
+                Path(f"mutant-{i}").write_bytes(bytes(data))
+        print(f"{count} mutants: exit codes {outcomes}, at most {worst_time:.2f} s and {worst_memory / 1024:.0f} MiB")
+
+
+if __name__ == "__main__":
+    main()
