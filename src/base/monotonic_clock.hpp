@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 
 #if defined(__linux__)
 #include <ctime>
@@ -22,6 +23,9 @@ inline double monotonic_seconds() noexcept {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 #endif
 }
+
+/// A time without the digits that the clock does not have, which would only take space in recordings [s].
+inline double whole_nanoseconds(double seconds) noexcept { return std::round(1e9 * seconds) / 1e9; }
 
 /// Duration of `work` [s]. Its result is stored, so that the compiler cannot omit the computation.
 template <typename Work>

@@ -114,7 +114,7 @@ void Servo::step(double now) noexcept {
       idle_ticks_.fetch_add(1, std::memory_order_relaxed);
       return;
     }
-    settling = law_time;
+    settling = whole_nanoseconds(law_time);
     if (!succeeded) {
       fault = DeviceFault::bad_force;
     } else if (law_time > options_.timeout) {

@@ -131,7 +131,7 @@ Recording replayed(const Recording& recording) {
   result.samples.clear();
   result.samples.reserve(recording.inputs.size());
   for (DeviceState input : recording.inputs) {
-    if (!input.force.allFinite()) input.force = output_force(setup.device, session.force());
+    if (!input.force.allFinite()) input.force = force_at_work(setup.device, session.force());
     session.update(input);
     result.samples.push_back(session.sample());
   }

@@ -24,7 +24,7 @@ SessionTick::SessionTick(HapticRenderer& renderer, const Capabilities& device, F
 
 const HapticTick& SessionTick::update(const DeviceState& state) noexcept {
   input_ = state;
-  if (state.force == output_force(device_, force_)) input_.force.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (state.force == force_at_work(device_, force_)) input_.force.setConstant(std::numeric_limits<double>::quiet_NaN());
   const double before = measure_ ? monotonic_seconds() : 0.0;
   const HapticTick& tick = renderer_.update(state);
   sample_ = {tick.time,  tick.device_point, tick.pen_tip,   tick.page_force, tick.state,
@@ -67,6 +67,10 @@ std::exception_ptr SessionTick::error() const {
   if (renderer_.law_error()) return renderer_.law_error();
   const std::string law = law_ ? "force law \"" + law_.name : "guidance law \"" + renderer_.law().name;
   return std::make_exception_ptr(ValueError(law + "\": its force is not finite"));
+}
+
+Eigen::Vector3d force_at_work(const Capabilities& device, const Eigen::Vector3d& sent) noexcept {
+  return device.simulated ? output_force(device, sent) : sent;
 }
 
 Recording recording_for(const PracticePage& page, const HapticRenderer& renderer, const RendererOptions& options,

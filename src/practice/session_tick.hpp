@@ -45,6 +45,10 @@ class SessionTick {
   DeviceState input_;
 };
 
+/// The force at work when nothing comes between that of the last tick and the device: a simulated device reports what
+/// it outputs, and of a real one the servo knows what it has written. Device axes [N].
+Eigen::Vector3d force_at_work(const Capabilities& device, const Eigen::Vector3d& sent) noexcept;
+
 /// An empty recording of a page written at the rate of a renderer.
 Recording recording_for(const PracticePage& page, const HapticRenderer& renderer, const RendererOptions& options,
                         const Capabilities& device, FeedbackMode mode, const ForceLaw& law);

@@ -15,6 +15,7 @@ import signal
 import subprocess
 import tempfile
 import time
+import zlib
 from pathlib import Path
 
 #: Starts the program and notes its process.
@@ -27,7 +28,7 @@ def replayed(program, path):
 
 
 def kill_once(program, emulated, directory, seconds):
-    """How much of what the device had sent is lost [s], and how many ticks were kept."""
+    """How much longer the device had sent reports, 1000 a second, than there are in the recording [s]; ticks kept."""
     shim, pid = directory / "shim", directory / "pid"
     shim.write_text(SHIM)
     shim.chmod(0o755)
@@ -45,7 +46,13 @@ def kill_once(program, emulated, directory, seconds):
     done, kept = replayed(program, part)
     assert done.returncode == 0 and kept["complete"] is False, done.stderr
     assert json.loads((out / "summary.json").read_text())["finished"] is False
-    return sent, kept["ticks"]
+    raw = part.read_bytes()
+    text = zlib.decompressobj(wbits=31).decompress(raw).decode()
+    first = float(text.partition("\nticks\n")[2].partition("\n")[0].partition(",")[0])
+    subprocess.run([program, "replay", part, "--out", directory / "table", "--ticks"], check=True, capture_output=True)
+    table, = (directory / "table").glob("*-ticks.csv")
+    last = first + float(table.read_text().splitlines()[-1].partition(",")[0])
+    return sent / 1000.0 - last, kept["ticks"]
 
 
 def main():
@@ -58,14 +65,14 @@ def main():
     options = parser.parse_args()
     draw = random.Random(options.seed)
     if options.kills > 0:
-        lost = []
+        lost, ticks = [], 0
         for _ in range(options.kills):
             with tempfile.TemporaryDirectory() as directory:
-                sent, kept = kill_once(options.program, options.emulated, Path(directory), draw.uniform(0.3, 6.0))
-            lost.append(sent - kept)
-        # Reports before the pen was in front of the paper are no samples: at most as many as the fewest that are missing.
-        print(f"killed {len(lost)} times: reports of the device that are not in the recording: "
-              f"{min(lost)} to {max(lost)}, that is at most {max(lost)} ms, from the first report on")
+                seconds, kept = kill_once(options.program, options.emulated, Path(directory), draw.uniform(2.0, 8.0))
+            lost.append(seconds)
+            ticks += kept
+        print(f"killed {len(lost)} times, with {ticks} ticks kept: the device had sent at most {max(lost):.3f} s more than "
+              "was kept")
     if options.mutants > 0:
         mutate(options.program, options.mutants, draw)
 

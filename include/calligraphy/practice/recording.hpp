@@ -48,8 +48,8 @@ struct Recording {
   std::vector<RecordedSample> samples;  ///< one per tick, in order
   std::uint32_t page = 0;               ///< page_id() of the page that was written; 0: unknown
   std::string law = {};                 ///< name of the force law, with parameters: "linear: 600 N/m"; empty: unknown
-  /// What came in at each tick, exactly, or empty if it was not recorded. A force of NaN is what the device outputs
-  /// (output_force()) when it is sent that of the tick before.
+  /// What came in at each tick, exactly, or empty if it was not recorded. A force of NaN is that of the tick before,
+  /// as a simulated device outputs it (output_force()) or a servo has sent it to a real one.
   std::vector<DeviceState> inputs = {};
   std::optional<RecordingSetup> setup = {};  ///< std::nullopt if it is not known
 };

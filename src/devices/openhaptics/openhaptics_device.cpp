@@ -188,7 +188,7 @@ DeviceState OpenHapticsDevice::Implementation::read() noexcept {
     until_check_ = check_interval;
     check_temperature();
   }
-  const double time = time_() - opened_;
+  const double time = whole_nanoseconds(time_() - opened_);
   heat_.update(diagnosis.status == DeviceStatus::warm_motors, temperature_, time - state_.time);
   is_warm_.store(heat_.is_warm(), std::memory_order_relaxed);
   if (heat_.is_warm()) diagnosis = more_severe(diagnosis, {DeviceStatus::warm_motors, DeviceFault::none});

@@ -27,6 +27,9 @@ namespace {
 
 using namespace phantom;
 
+// Far below what encoders resolve. Digits beyond would only take space in recordings.
+constexpr double steps_per_metre = 1e9;     // of a position [1/m]
+constexpr double steps_per_velocity = 1e6;  // [s/m]
 constexpr double fault_time = 20e-3;      // time for which a fault is reported: longer than any ramp-down [s]
 constexpr double silence = 8e-3;          // time without a report: three times the longest pause of a real device [s]
 constexpr double write_patience = 20e-3;  // time without a command [s]
@@ -60,6 +63,10 @@ const PhantomOptions& checked(const PhantomOptions& options) {
 
 std::function<double()> clock_or_monotonic(std::function<double()> clock) {
   return clock ? std::move(clock) : std::function<double()>(monotonic_seconds);
+}
+
+Eigen::Vector3d rounded(const Eigen::Vector3d& vector, double steps) noexcept {
+  return ((vector * steps).array().round() + 0.0) / steps;
 }
 
 }  // namespace
@@ -146,9 +153,9 @@ class PhantomDevice::Core final : public LinkListener {
     const double now = clock_();
     if (fresh) last_report_ = motion_.time;
     DeviceState state;
-    state.time = last_report_ - opened_at_;
-    state.position = motion_.position;
-    state.velocity = motion_.velocity;
+    state.time = whole_nanoseconds(last_report_ - opened_at_);
+    state.position = rounded(motion_.position, steps_per_metre);
+    state.velocity = rounded(motion_.velocity, steps_per_velocity);
     state.velocity_estimated = true;
     state.force = motors_on_.load(std::memory_order_relaxed) ? sent_force_ : Eigen::Vector3d::Zero();
     state.buttons = motion_.buttons;
