@@ -93,6 +93,8 @@ export function beginningOf(path, share) {
 export class Tab {
   problems = [];  // errors that the console or the page reported
   requests = [];  // addresses
+  sent = [];      // events of a pen or a mouse, each with its time [ms]
+  time = 0;       // that has passed, if the page has a clock [ms]
 
   /**
    * Opens the page. With a clock of its own, time passes only in pass(): what the page does then does not depend on how
@@ -100,9 +102,10 @@ export class Tab {
    * @param {import("playwright-core").Browser} browser
    * @param {string} origin
    * @param {{sheet: number}} parts see partsOf()
-   * @param {{character?: string, hasClock?: boolean, size?: {width: number, height: number}}} [options]
+   * @param {{character?: string, hasClock?: boolean, size?: {width: number, height: number},
+   *          before?: () => void}} [options] `before` is run in the page before its scripts
    */
-  static async open(browser, origin, parts, { character = "永", hasClock = true, size } = {}) {
+  static async open(browser, origin, parts, { character = "永", hasClock = true, size, before } = {}) {
     const tab = new Tab();
     tab.sheet = parts.sheet;
     tab.hasClock = hasClock;
@@ -116,6 +119,7 @@ export class Tab {
       await tab.page.clock.install({ time: 0 });
       await tab.page.clock.pauseAt(1000);
     }
+    if (before) await tab.page.addInitScript(before);
     await tab.page.addInitScript(() => {
       globalThis.longTasks = [];
       new PerformanceObserver((list) => globalThis.longTasks.push(...list.getEntries().map(
@@ -137,6 +141,7 @@ export class Tab {
   /** Lets time pass: that of the page, or real time, in which at least two pictures are drawn unless it is short.
    * @param {number} milliseconds */
   async pass(milliseconds) {
+    this.time += milliseconds;
     if (this.hasClock) return this.page.clock.runFor(milliseconds);
     await this.page.waitForTimeout(milliseconds);
     if (milliseconds < 50) return;
@@ -175,9 +180,11 @@ export class Tab {
    * @param {number} [how.rest] time from the last movement to the lift [ms]
    * @param {number} [how.pause] time before the first touch and after the lift [ms]
    * @param {() => Promise<void>} [how.midway] called halfway
+   * @param {(share: number) => object} [how.sensed] what else a pen senses there, as in Input.dispatchMouseEvent
    */
   async write(path, { as = "pen", beside = [0, 0], force = (share) => 0.3 + 0.5 * Math.sin(Math.PI * share),
-                      speed = 0.07, dwell = 0, pause = 150, rest = 60, midway } = {}) {
+                      speed = 0.07, dwell = 0, pause = 150, rest = 60, midway,
+                      sensed = () => ({}) } = {}) {
     const interval = 8;  // between two events [ms]
     const points = resampled(path, speed * interval * 1e-3), last = points.length - 1;
     const paper = await this.page.locator("#paper").boundingBox();
@@ -185,17 +192,17 @@ export class Tab {
       x: paper.x + ((x + beside[0]) / this.sheet) * paper.width,
       y: paper.y + (1 - (y + beside[1]) / this.sheet) * paper.height,
     }));
-    await send.hover(points[0]);
+    await send.hover(points[0], sensed(0));
     await this.pass(pause);
-    await send.press(points[0], force(0));
+    await send.press(points[0], force(0), sensed(0));
     await this.pass(dwell);
     for (let i = 1; i <= last; ++i) {
       await this.pass(interval);
       if (i === Math.ceil(last / 2)) await midway?.();
-      await send.move(points[i], Math.max(0.02, force(i / last)));
+      await send.move(points[i], Math.max(0.02, force(i / last)), sensed(i / last));
     }
     await this.pass(rest);
-    await send.release(points[last]);
+    await send.release(points[last], sensed(1));
     await this.pass(pause);
   }
 
@@ -209,16 +216,20 @@ export class Tab {
         release: () => send("touchEnd", []),
       };
     }
-    const send = (type, at, button, force) => this.devtools.send("Input.dispatchMouseEvent", {
-      type, ...place(at), button, buttons: type !== "mouseReleased" && button === "left" ? 1 : 0, pointerType: as,
-      force: as === "mouse" && force > 0 ? 0.5 : force,  // what browsers report of a mouse
-      clickCount: type === "mouseMoved" ? 0 : 1,
-    });
+    const send = (type, at, button, force, sensed) => {
+      const event = {
+        type, ...place(at), button, buttons: type !== "mouseReleased" && button === "left" ? 1 : 0, pointerType: as,
+        force: as === "mouse" && force > 0 ? 0.5 : force,  // what browsers report of a mouse
+        clickCount: type === "mouseMoved" ? 0 : 1, ...sensed,
+      };
+      this.sent.push({ ...event, at, time: this.time });
+      return this.devtools.send("Input.dispatchMouseEvent", event);
+    };
     return {
-      hover: (at) => send("mouseMoved", at, "none", 0),
-      press: (at, force) => send("mousePressed", at, "left", force),
-      move: (at, force) => send("mouseMoved", at, "left", force),
-      release: (at) => send("mouseReleased", at, "left", 0),
+      hover: (at, sensed) => send("mouseMoved", at, "none", 0, sensed),
+      press: (at, force, sensed) => send("mousePressed", at, "left", force, sensed),
+      move: (at, force, sensed) => send("mouseMoved", at, "left", force, sensed),
+      release: (at, sensed) => send("mouseReleased", at, "left", 0, sensed),
     };
   }
 
@@ -257,6 +268,20 @@ export class Tab {
       const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
       return new Uint32Array(data.buffer).reduce((hash, pixel) => Math.imul(hash ^ pixel, 16777619), 0);
     }, layers.indexOf(layer));
+  }
+
+  /** Saves what was written: the name of the file, and its bytes. */
+  async save() {
+    const [download] = await Promise.all([this.page.waitForEvent("download"), this.page.locator("#save").click()]);
+    return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+  }
+
+  /** Opens a file, and waits until the page says something else. @param {string} name @param {Buffer | string} bytes */
+  async openFile(name, bytes) {
+    await this.page.evaluate(() => { document.getElementById("progress").textContent = ""; });
+    await this.page.locator("#file").setInputFiles({ name, mimeType: "", buffer: Buffer.from(bytes) });
+    await this.page.waitForFunction(() => document.getElementById("progress").textContent !== "");
+    await this.pass(100);
   }
 
   /** Waits for the result, which a worker computes in real time. */

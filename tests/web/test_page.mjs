@@ -12,6 +12,8 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { gunzipSync } from "node:zlib";
 import { Tab, beginningOf, partsOf, serve, start } from "./browser.mjs";
 
 const [dist, playwright, screenshots] = process.argv.slice(2);
@@ -37,7 +39,7 @@ after(async () => {
 /** Has a page reported no error, and asked no other host? */
 function isQuiet(tab, origin) {
   assert.deepEqual(tab.problems, []);
-  const others = tab.requests.filter((address) => !address.startsWith("data:") && !address.startsWith(`${origin}/`));
+  const others = tab.requests.filter((address) => !/^(data|blob):/.test(address) && !address.startsWith(`${origin}/`));
   assert.deepEqual(others, []);
 }
 
@@ -216,6 +218,137 @@ testPage("a palm that is put down before the pen is no writing", { character: "�
   const { rows, remarks } = await tab.result();
   assert.deepEqual(remarks, []);
   assert.equal(rows["Right at once"], "1 of 1");
+  const { paths } = parsed(gunzipSync((await tab.save()).bytes).toString());
+  assert.deepEqual(paths.map(({ kind }) => kind), ["A", "S", "A"], "the palm is not saved");
+});
+
+/** A file of one pen trace, read as docs/pen-traces.md says. */
+function parsed(text) {
+  const lines = text.trimEnd().split("\n"), statements = lines.filter((line) => !line.startsWith("#"));
+  const [version, [, ...trace], [, ...fields], ...paths] = statements.map((line) => line.split(" "));
+  const names = ["x", "y", "time", ...fields];
+  return {
+    version, trace, fields,
+    notice: lines.filter((line) => line.startsWith("#")).join("\n"),
+    paths: paths.map(([kind, count, ...values]) => ({
+      kind,
+      points: Array.from({ length: Number(count) }, (_, i) => Object.fromEntries(
+        names.map((name, k) => [name, Number(values[i * names.length + k])]))),
+    })),
+  };
+}
+
+/** What a pen senses that is turned and tilted while it writes, its barrel's button pressed from the middle on. */
+const turned = (share) => ({
+  tiltX: 20 - Math.round(50 * share), tiltY: 10 + Math.round(30 * share), twist: 5 + Math.round(340 * share),
+});
+const dyadic = (share) => Math.round(16 + 40 * Math.sin(Math.PI * share)) / 64;  // a pressure that a float has exactly
+
+/** Has each event of a pen that was sent been saved, and nothing else? */
+function isAsSent(tab, { paths }) {
+  const points = paths.flatMap(({ kind, points }) => points.map((point) => ({ kind, ...point })));
+  assert.equal(points.length, tab.sent.length);
+  const degree = Math.PI / 180, begin = tab.sent[0].time, margin = (tab.sheet - em) / 2;
+  for (const [i, { at, time, force, buttons, tiltX, tiltY, twist }] of tab.sent.entries()) {
+    const saved = points[i], [across, down] = [tiltX, tiltY].map((angle) => Math.tan(angle * degree));
+    const isNear = (name, value, off = 1e-9) =>
+      assert.ok(Math.abs(saved[name] - value) < off, `${name} of ${i} is ${saved[name]}, not ${value}`);
+    isNear("x", (1000 * (at[0] - margin)) / em, 0.01);
+    isNear("y", 1000 - (1000 * (at[1] - margin)) / em, 0.01);
+    isNear("altitude", Math.atan(1 / Math.hypot(across, down)));
+    isNear("azimuth", -((Math.atan2(down, across) + 2 * Math.PI) % (2 * Math.PI)));
+    isNear("twist", -twist * degree);
+    assert.deepEqual([saved.kind, saved.time, saved.pressure, saved.buttons],
+                     [buttons & 1 ? "S" : "A", time - begin, force, buttons]);
+  }
+}
+
+testPage("what a pen did is saved as it came, and is written again once it is opened", { character: "二" },
+         async (tab, context) => {
+  const [first, second] = parts.strokesOf("二"), how = { beside: [0, 0], force: dyadic, sensed: turned };
+  await tab.write(backwards(first), how);
+  await tab.write(first, how);
+  await tab.pass(5000);
+  await tab.write(second, { ...how, sensed: (share) => ({ ...turned(share), buttons: share === 1 ? 2 : 3 }) });
+  const written = async (tab) => {
+    await isWritten(tab);
+    const result = await tab.result(), inks = [];
+    for (const ink of ["own", "guided"]) {
+      await tab.choose("ink", ink);
+      inks.push(await tab.fingerprint("ink"));
+    }
+    return { result, inks };
+  };
+  const there = await written(tab), { name, bytes } = await tab.save(), text = gunzipSync(bytes).toString();
+  assert.match(name, /^二-1970-01-01T\d\d-\d\d\.pens\.gz$/);
+  const saved = parsed(text);
+  assert.deepEqual([saved.version, saved.trace], [["V", "2"], ["二", "4E8C", "page", "1000", "3", "4"]]);
+  for (const said of ["二", "Guided", "60 %", "lenient", "none", "pen"]) assert.ok(saved.notice.includes(said), said);
+  isAsSent(tab, saved);
+
+  const other = await Tab.open(browser, server.origin, parts);
+  try {
+    await other.openFile(name, bytes);
+    assert.deepEqual(await written(other), there);
+    assert.equal(gunzipSync((await other.save()).bytes).toString(), text, "saved again, it is the same file");
+    isQuiet(other, server.origin);
+  } finally {
+    await other.close();
+  }
+  if (!process.env.CALLIGRAPHY_PROGRAM) return void context.diagnostic("CALLIGRAPHY_PROGRAM is not set");
+  const directory = mkdtempSync(join(tmpdir(), "calligraphy-page-")), file = join(directory, name);
+  writeFileSync(file, bytes);
+  const said = execFileSync(process.env.CALLIGRAPHY_PROGRAM, ["replay", file], { encoding: "utf8" });
+  rmSync(directory, { recursive: true });
+  assert.match(said, /二/);
+});
+
+testPage("a browser that has only the tilts of a pen saves the same angles", {
+  character: "一", before: () => {
+    for (const name of ["altitudeAngle", "azimuthAngle"]) delete PointerEvent.prototype[name];
+  },
+}, async (tab) => {
+  await tab.write(parts.strokesOf("一")[0], { force: dyadic, sensed: turned });
+  isAsSent(tab, parsed(gunzipSync((await tab.save()).bytes).toString()));
+});
+
+testPage("what a mouse does not sense is not saved, and a character begun anew has nothing to save", {}, async (tab) => {
+  await tab.write(yong[0], { as: "mouse" });
+  const { fields, paths } = parsed(gunzipSync((await tab.save()).bytes).toString());
+  assert.deepEqual([fields, paths.map(({ kind }) => kind)], [["buttons"], ["A", "S", "A"]]);
+  await tab.click("#again");
+  assert.ok(await tab.page.locator("#save").isDisabled());
+});
+
+testPage("a file that cannot be written again is refused, and why is said", {}, async (tab) => {
+  const says = async (text, why) => {
+    await tab.openFile("a.txt", text);
+    assert.match(await progress(tab), why);
+  };
+  await says("C 永 6C38 me 1000 1\nS 1 0 0 zero\n", /^a\.txt cannot be opened: .*a\.txt.*2.*'zero'/);
+  await says("C ض 636 me 1000 1\nS 1 0 0 0\n", /^a\.txt cannot be opened: none of its characters.*ض/);
+  await says(Buffer.from([0x1f, 0x8b, 1, 2]), /^a\.txt cannot be opened: /);
+  await tab.write(yong[0]);
+  await dueIs(tab, 2);
+});
+
+testPage("minutes of scribbling are written again without blocking the page", { hasClock: false }, async (tab) => {
+  const points = Array.from({ length: 60e3 }, (_, i) => `${300 + i % 400} ${300 + (i >> 4) % 400} ${5 * i}`);
+  const ready = await tab.page.evaluate(() => performance.now());
+  await tab.openFile("long.txt", `C 永 6C38 me 1000 2\nS ${points.length} ${points.join(" ")}\nS 1 500 500 400000\n`);
+  await tab.page.waitForFunction(() => document.querySelector("#skip.offered"));  // both pen-downs were refused
+  const tasks = await tab.page.evaluate(() => globalThis.longTasks);
+  const longestOne = Math.max(0, ...tasks.filter(({ startTime }) => startTime > ready).map(({ duration }) => duration));
+  assert.ok(longestOne < 200, `a task took ${longestOne} ms`);
+});
+
+test("of a mouse that hovers for an hour, its last way is kept, and where it was first", async () => {
+  const { Trace } = await import(pathToFileURL(join(dist, "page/trace.js")));
+  const trace = new Trace();
+  for (let i = 0; i < 400e3; ++i) trace.add({ time: 9 * i, x: 0, y: 0, isDown: false, stylus: {}, buttons: 0 });
+  const [{ samples }] = trace.paths;
+  assert.ok(samples.length > 5000 && samples.length <= 10001, `${samples.length} samples`);
+  assert.deepEqual([samples[0].time, samples.at(-1).time], [0, 9 * (400e3 - 1)]);
 });
 
 for (const [width, height] of [[320, 640], [768, 1024], [1024, 768]]) {

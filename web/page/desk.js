@@ -21,6 +21,24 @@ const pressed = 0.5;  // pressure of a pen on the paper, whatever its own: it mu
  * @property {number} length of its path [m]
  */
 
+/** The members of a stylus that the library has, in its order, and the bit of each. */
+export const quantities = /** @type {const} */ ([
+  ["pressure", constants.STYLUS_PRESSURE], ["force", constants.STYLUS_FORCE],
+  ["altitude", constants.STYLUS_ALTITUDE], ["azimuth", constants.STYLUS_AZIMUTH],
+  ["twist", constants.STYLUS_TWIST], ["height", constants.STYLUS_HEIGHT],
+]);
+
+/** @param {import("../calligraphy_layout.js").Structs["stylus"]} made @param {import("./pointer.js").Stylus} stylus */
+export function setStylus(made, stylus) {
+  made.known = 0;
+  for (const [name, bit] of quantities) {
+    const value = stylus[name];
+    if (value === undefined) continue;
+    made.known |= bit;
+    made[name] = value;
+  }
+}
+
 /** A sheet with one character. @param {Library} library @param {number} set @param {string} character
  * @returns {number} handle of the page */
 export function layOut(library, set, character) {
@@ -49,6 +67,7 @@ export class Desk {
     this.options = library.struct("renderer_options");
     this.sample = library.struct("device_state");
     this.tick = library.struct("tick");
+    this.stylus = library.struct("stylus");
     [hand, pointer].forEach((made) => library.discard(made));
     this.strokes = this.#readStrokes();
     this.due = 0;  // index of the stroke to be written next; the number of strokes once all are
@@ -82,9 +101,12 @@ export class Desk {
    * @param {number} x [m, page]
    * @param {number} y [m, page]
    * @param {boolean} isDown
+   * @param {import("./pointer.js").Stylus} [stylus]
+   * @param {number} [buttons]
    */
-  move(x, y, isDown) {
-    this.library.device_move_pointer(this.device, x, y, isDown ? pressed : 0, 0);
+  move(x, y, isDown, stylus = {}, buttons = 0) {
+    setStylus(this.stylus, stylus);
+    this.library.device_move_pen(this.device, x, y, isDown ? pressed : 0, Math.max(0, buttons), this.stylus);
   }
 
   /** Whether the lifted pen is not where a pointer is that was not seen coming, such as a finger. @param {number} x
@@ -113,7 +135,9 @@ export class Desk {
 
   free() {
     const { library } = this;
-    [this.mapping, this.profile, this.options, this.sample, this.tick].forEach((made) => library.discard(made));
+    for (const made of [this.mapping, this.profile, this.options, this.sample, this.tick, this.stylus]) {
+      library.discard(made);
+    }
     [...this.handles, this.renderer].forEach((handle) => library.free(handle));
   }
 

@@ -6,6 +6,7 @@ import { Brush, InkLine } from "./ink.js";
 import { colours } from "./paper.js";
 import { PenDown } from "./pen_down.js";
 import { Recorder } from "./recorder.js";
+import { Trace } from "./trace.js";
 
 /**
  * @typedef {import("../calligraphy_layout.js").Structs["tick"]} Tick
@@ -29,6 +30,7 @@ export const modes = {
 const missesUntilShown = 2;
 const patience = 250;     // time for which a hint must hold before it is shown [ms]
 const rest = 1000;        // time without anything to draw after which no more pictures are drawn [ms]
+const longestWork = 25;   // on ticks for one picture [ms]
 const longestGap = 3000;  // between two pictures: what the pen did before is not made up for [ms]
 const longestWay = 150;   // of the lifted pen across the sheet [ms]
 const shortestLift = 0.052;  // of a pen; a score takes a shorter one for a bounce [s]
@@ -41,6 +43,10 @@ export class Lesson {
   /** @type {PenDown | undefined} */
   penDown;  // while the pen is on the paper
   recorder = new Recorder();
+  trace = new Trace();  // what the pointer did
+  /** @type {import("./pointer.js").PointerSample[]} */
+  played = [];            // samples of a trace that is written again, the next one last
+  endOfPlay = -Infinity;  // [ms]
   /** @type {number[]} */
   skipped = [];  // strokes
   misses = 0;    // of the stroke that is due
@@ -70,6 +76,7 @@ export class Lesson {
   isAwake = false;
   time = 0;          // of the last tick [ms], as performance.now()
   lastActivity = 0;  // [ms]
+  lastSample = 0;    // that was taken [ms]
   timeOnPaper = -Infinity;  // of the writer, when the pen was last on the paper [s]
   addedTime = 0;            // to the writer's, so that quick strokes are told apart [s]
   marks = () => {};  // draws what a remark points at
@@ -126,6 +133,23 @@ export class Lesson {
   /** Whether the stroke that is due was missed so often that it is shown. */
   get isStuck() {
     return this.misses >= missesUntilShown;
+  }
+
+  /** Writes a trace as if the pointer did it now, but faster. @param {Trace} trace */
+  play(trace) {
+    const last = trace.paths[trace.paths.length - 1].samples.at(-1)?.time ?? 0;
+    trace.moveTo(Math.floor(performance.now() - rest - last));  // until now
+    this.trace = trace;
+    this.played = trace.played().reverse();
+    this.time = this.lastSample = this.played[this.played.length - 1].time - rest;
+    this.endOfPlay = this.played[0].time + rest;
+    this.pointer.samples.length = 0;  // not seen
+    this.display.changed(this);
+    this.wake();
+  }
+
+  get isPlaying() {
+    return this.time < this.endOfPlay;
   }
 
   /** Passes over the stroke that is due. */
@@ -199,22 +223,47 @@ export class Lesson {
   /** @param {number} now */
   #picture(now) {
     if (!this.isOpen) return;
-    if (now - this.time > longestGap) this.time = now - longestGap;
-    while (this.time < now) {
+    if (now - this.time > longestGap && !this.isPlaying) this.time = now - longestGap;
+    for (let tick = 1; this.time < now; ++tick) {
+      this.#skipRest();
       this.time += 1;
       this.#takeSamples();
       this.#advance();
+      if (tick % 64 === 0 && performance.now() - now > longestWork) break;
     }
     this.#draw(now);
-    const isBusy = this.isOnPaper || this.isDown || this.animations.playing.length > 0;
+    const isBusy = this.isOnPaper || this.isDown || this.isPlaying || this.animations.playing.length > 0;
     this.isAwake = isBusy || now - this.lastActivity < rest;
     if (this.isAwake) requestAnimationFrame((next) => this.#picture(next));
   }
 
+  /** Leaves out a time in which a lifted pen that is played did nothing: no pictures were drawn then, either. */
+  #skipRest() {
+    const next = this.played.at(-1)?.time ?? this.time, isBusy = this.isDown || this.isOnPaper;
+    if (!isBusy && this.time - this.lastSample >= rest) this.time = Math.max(this.time, next);
+  }
+
+  /** The next sample that is due, of those that are played first. */
+  #nextSample() {
+    const { played, time } = this, next = played.at(-1);
+    if (next) return next.time <= time ? played.pop() : undefined;
+    return this.isPlaying ? undefined : this.pointer.take(time);
+  }
+
+  /** Keeps what the pointer did. @param {import("./pointer.js").PointerSample} sample */
+  #keep(sample) {
+    const { trace } = this, hadPenDown = trace.hasPenDown;
+    if (sample.isPalm && !this.penDown?.finish) trace.dropPenDown();
+    else trace.add(sample);
+    if (trace.hasPenDown !== hadPenDown) this.display.changed(this);
+  }
+
   #takeSamples() {
-    for (let sample = this.pointer.take(this.time); sample; sample = this.pointer.take(this.time)) {
+    for (let sample = this.#nextSample(); sample; sample = this.#nextSample()) {
       this.mustLift &&= sample.isDown;
       if (this.settings.mode === "watch" || this.isWritten || this.mustLift) continue;
+      if (!this.isPlaying) this.#keep(sample);
+      this.lastSample = sample.time;
       if (sample.isPalm && this.penDown) this.penDown.isPalm = true;
       const begins = sample.isDown && !this.isDown;
       if (begins) {
@@ -228,15 +277,15 @@ export class Lesson {
       if (sample.isDown) {
         const seconds = begins ? 0 : Math.max(1e-3, (sample.time - this.ownTime) * 1e-3);
         const way = Math.hypot(sample.x - this.ownAt[0], sample.y - this.ownAt[1]);
-        const width = this.ownBrush.press(sample.pressure, seconds > 0 ? way / seconds : 0, seconds);
+        const width = this.ownBrush.press(sample.stylus.pressure, seconds > 0 ? way / seconds : 0, seconds);
         if (!this.penDown?.isStray(sample.x, sample.y)) this.own.at(-1)?.add(sample.x, sample.y, width, this.paper.pixel);
         this.ownAt = [sample.x, sample.y];
         this.ownTime = sample.time;
       }
       this.hasPointer = true;
       this.isDown = sample.isDown;
-      this.pressure = sample.isDown ? sample.pressure : 0;  // a pen that is lifted leaves a thin end
-      this.desk.move(sample.x, sample.y, sample.isDown);
+      this.pressure = sample.isDown ? sample.stylus.pressure : 0;  // a pen that is lifted leaves a thin end
+      this.desk.move(sample.x, sample.y, sample.isDown, sample.stylus, sample.buttons);
     }
   }
 

@@ -5,10 +5,21 @@ import { Lesson, modes } from "./lesson.js";
 import { Paper } from "./paper.js";
 import { Pointer } from "./pointer.js";
 import { showResult } from "./result.js";
+import { openTrace, packed } from "./trace.js";
 
 const begun = performance.now();
 const find = (/** @type {string} */ id) => /** @type {HTMLElement} */ (document.getElementById(id));
 const input = (/** @type {string} */ id) => /** @type {HTMLInputElement} */ (document.getElementById(id));
+
+const tolerances = { lenient: constants.TOLERANCE_LENIENT, normal: constants.TOLERANCE_NORMAL,
+                     strict: constants.TOLERANCE_STRICT };
+
+/** The date and the time here, with what they are ahead of UTC. */
+function localTime() {
+  const now = new Date(), ahead = -now.getTimezoneOffset(), two = (/** @type {number} */ n) => String(n).padStart(2, "0");
+  const offset = `${ahead < 0 ? "-" : "+"}${two(Math.floor(Math.abs(ahead) / 60))}:${two(Math.abs(ahead) % 60)}`;
+  return new Date(now.getTime() + ahead * 60e3).toISOString().slice(0, 19) + offset;
+}
 
 /** Buttons of which one is chosen. @param {string} id @param {Record<string, string>} names @param {string} chosen
  * @param {(value: string) => void} choose */
@@ -59,13 +70,14 @@ async function main() {
   }
 
   /** @param {Lesson} lesson */
-  function showProgress({ desk, skipped, isStuck, isWritten, isGuided, mode, settings }) {
+  function showProgress({ desk, skipped, isStuck, isWritten, isGuided, mode, settings, trace }) {
     const isWatched = settings.mode === "watch", count = desk.strokes.length;
     find("progress").textContent = isWatched ? `${count} strokes`
       : !isWritten ? `Stroke ${Math.min(desk.due + 1, count)} of ${count}`
       : skipped.length > 0 ? `${count - skipped.length} of ${count} strokes written` : "Written";
     if (isWritten && document.activeElement === find("skip")) find("next").focus();
     input("skip").disabled = isWritten || isWatched;
+    input("save").disabled = !trace.hasPenDown;
     find("skip").classList.toggle("offered", isStuck);
     find("strength").closest("label")?.toggleAttribute("hidden", !mode.isGuided);
     find("ink").hidden = !isGuided;
@@ -119,6 +131,45 @@ async function main() {
     }
   }
 
+  /** What a file says of how it was written. */
+  function notice() {
+    const { character, settings, mode, skipped, isGuided, trace } = lesson;
+    if (!trace.isContinued) return trace.notice;
+    const list = (/** @type {unknown[]} */ items) => items.join(", ") || "none";
+    const tolerance = Object.entries(tolerances).find(([, value]) => value === settings.tolerance)?.[0];
+    return [...(trace.notice ? [trace.notice] : []), `written on the page of calligraphy ${library.version()}`,
+            `character: ${character}`, `mode: ${mode.name}`,
+            `guide: ${isGuided ? `${Math.round(100 * settings.strength)} %` : "none"}`, `tolerance: ${tolerance}`,
+            `skipped strokes: ${list(skipped.map((stroke) => stroke + 1))}`, `pointer: ${list(trace.kinds)}`,
+            `date: ${localTime()}`].join("\n");
+  }
+
+  /** Hands out what the pen did as a file. */
+  async function save() {
+    const { character, trace } = lesson;
+    try {
+      const { blob, ending } = await packed(trace.text(library, character, notice()));
+      const download = `${character}-${localTime().slice(0, 16).replace(":", "-")}${ending}`;
+      const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download });
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 60e3);  // once it was taken
+    } catch (error) {
+      find("progress").textContent = `It cannot be saved: ${/** @type {Error} */ (error).message}`;
+    }
+  }
+
+  /** Begins with the character of a file, and writes as the pen did. @param {File | undefined} file */
+  async function openFile(file) {
+    if (!file) return;
+    try {
+      const { character, trace } = await openTrace(library, file, (each) => characters.includes(each));
+      if (settings.mode === "watch") find("modes").querySelector("input")?.click();  // in which is written
+      if (begin(character)) lesson.play(trace);
+    } catch (error) {
+      find("progress").textContent = `${file.name} cannot be opened: ${/** @type {Error} */ (error).message}`;
+    }
+  }
+
   function beginAsked() {
     const character = asked();
     beginFrom(Math.max(0, characters.indexOf(character)));
@@ -131,10 +182,7 @@ async function main() {
         (mode) => change({ mode: /** @type {import("./lesson.js").ModeName} */ (mode) }));
   offer("ink", { guided: "Guided ink", own: "My own ink", both: "Both, mine in blue" }, "guided",
         (ink) => change({ ink: /** @type {"guided" | "own" | "both"} */ (ink) }));
-  for (const [value, name] of [[constants.TOLERANCE_LENIENT, "lenient"], [constants.TOLERANCE_NORMAL, "normal"],
-                               [constants.TOLERANCE_STRICT, "strict"]]) {
-    input("tolerance").append(new Option(String(name), String(value)));
-  }
+  for (const [name, value] of Object.entries(tolerances)) input("tolerance").append(new Option(name, String(value)));
   input("tolerance").addEventListener("change", () => change({ tolerance: Number(input("tolerance").value) }));
   const changeStrength = () => {
     find("strength-shown").textContent = `${input("strength").value} %`;
@@ -145,6 +193,17 @@ async function main() {
   find("skip").addEventListener("click", () => lesson.skip());
   find("next").addEventListener("click", () => {
     beginFrom(characters.indexOf(lesson.character) + 1);
+  });
+  find("save").addEventListener("click", save);
+  find("open").addEventListener("click", () => input("file").click());
+  input("file").addEventListener("change", () => {
+    openFile(input("file").files?.[0]);
+    input("file").value = "";  // so that the same file can be opened again
+  });
+  window.addEventListener("dragover", (event) => event.preventDefault());
+  window.addEventListener("drop", (event) => {
+    event.preventDefault();
+    openFile(event.dataTransfer?.files[0]);
   });
   for (const character of characters) {
     const button = document.createElement("button");
