@@ -180,7 +180,8 @@ export class Tab {
    * @param {number} [how.rest] time from the last movement to the lift [ms]
    * @param {number} [how.pause] time before the first touch and after the lift [ms]
    * @param {() => Promise<void>} [how.midway] called halfway
-   * @param {(share: number) => object} [how.sensed] what else a pen senses there, as in Input.dispatchMouseEvent
+   * @param {(share: number) => object} [how.sensed] what else a pen senses there, as in Input.dispatchMouseEvent, with
+   *   the buttons besides that of its tip
    */
   async write(path, { as = "pen", beside = [0, 0], force = (share) => 0.3 + 0.5 * Math.sin(Math.PI * share),
                       speed = 0.07, dwell = 0, pause = 150, rest = 60, midway,
@@ -217,10 +218,11 @@ export class Tab {
       };
     }
     const send = (type, at, button, force, sensed) => {
+      const isDown = type !== "mouseReleased" && button === "left";
       const event = {
-        type, ...place(at), button, buttons: type !== "mouseReleased" && button === "left" ? 1 : 0, pointerType: as,
+        ...sensed, type, ...place(at), button, buttons: Number(isDown) + (sensed.buttons ?? 0), pointerType: as,
         force: as === "mouse" && force > 0 ? 0.5 : force,  // what browsers report of a mouse
-        clickCount: type === "mouseMoved" ? 0 : 1, ...sensed,
+        clickCount: type === "mouseMoved" ? 0 : 1,
       };
       this.sent.push({ ...event, at, time: this.time });
       return this.devtools.send("Input.dispatchMouseEvent", event);

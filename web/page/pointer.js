@@ -79,8 +79,8 @@ export class Pointer {
   #move(event) {
     if (event.pointerType === "pen") this.penTime = event.timeStamp;
     if (this.isDown ? event.pointerId !== this.id : !event.isPrimary) return;
-    if (!this.isDown && event.button === 0) return this.#begin(event);  // the tip is put down, another button held
-    if (this.isDown && (event.buttons & 1) === 0) return this.#lift(event.timeStamp);  // so is it lifted, or its end lost
+    if (event.button === 0) return this.isDown ? this.#end(event) : this.#begin(event);  // with another button held
+    if (this.isDown && (event.buttons & 1) === 0) return this.#lift(event.timeStamp);  // its end was lost
     const coalesced = event.getCoalescedEvents?.() ?? [];
     this.#add(coalesced.length > 0 ? coalesced : [event], this.isDown);
     return undefined;
@@ -89,7 +89,7 @@ export class Pointer {
   /** @param {PointerEvent} event */
   #end(event) {
     if (event.pointerId !== this.id) return;
-    if (event.type !== "pointerup") return this.#lift(event.timeStamp);
+    if (event.type === "pointercancel" || event.type === "lostpointercapture") return this.#lift(event.timeStamp);
     this.id = undefined;
     this.#add([event], false);
     return undefined;
