@@ -26,6 +26,7 @@ inline constexpr CallbackCode callback_continue = 1;
 inline constexpr Enum current_buttons = 0x2000;
 inline constexpr Enum current_position = 0x2050;  // [mm]
 inline constexpr Enum current_velocity = 0x2051;  // [mm/s]
+inline constexpr Enum current_transform = 0x2052;  // of the stylus, 4 x 4, column by column [mm]
 inline constexpr Enum device_model = 0x2501;
 inline constexpr Enum device_serial = 0x2504;
 inline constexpr Enum usable_workspace = 0x2551;

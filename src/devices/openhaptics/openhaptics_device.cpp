@@ -177,9 +177,11 @@ DeviceState OpenHapticsDevice::Implementation::read() noexcept {
   }
   double position[3] = {};
   double velocity[3] = {};
+  double transform[16] = {};
   int buttons = 0;
   hd().hdGetDoublev(current_position, position);
   hd().hdGetDoublev(current_velocity, velocity);
+  hd().hdGetDoublev(current_transform, transform);
   hd().hdGetIntegerv(current_buttons, &buttons);
   const bool is_due = --until_check_ <= 0;
   if (is_due) check_calibration();
@@ -200,6 +202,9 @@ DeviceState OpenHapticsDevice::Implementation::read() noexcept {
   state_.velocity = millimetre * Eigen::Vector3d(velocity[0], velocity[1], velocity[2]);
   state_.force = clock->output_on() ? sent_ : Eigen::Vector3d(Eigen::Vector3d::Zero());
   state_.buttons = static_cast<std::uint32_t>(buttons) & 0xF;
+  const double* const barrel = transform + 8;  // the axis z of the stylus, from its tip to its other end
+  state_.stylus.altitude = std::atan2(barrel[2], std::hypot(barrel[0], barrel[1]));
+  state_.stylus.azimuth = std::atan2(barrel[1], barrel[0]);
   state_.status = diagnosis.status;
   state_.fault = diagnosis.fault;
   return state_;

@@ -126,7 +126,8 @@ TEST_CASE("a pen rests on a wall through the vendor's runtime, in metres and new
   CHECK(lab.runtime->broken_rules() == 0);
 }
 
-TEST_CASE("velocity is in metres per second, and the buttons are the runtime's four", "[openhaptics]") {
+TEST_CASE("velocity is in metres per second, the buttons are the runtime's four, and the pen leans as its transform says",
+          "[openhaptics]") {
   Lab lab;
   OpenHapticsDevice device(lab.options());
   const double position[3] = {0.0, 0.0, 0.0};
@@ -141,6 +142,9 @@ TEST_CASE("velocity is in metres per second, and the buttons are the runtime's f
   lab.steps(500);
   CHECK(last.velocity.x() == Approx(0.1).epsilon(0.01));
   CHECK(last.buttons == 0x5);
+  constexpr double degree = 0.017453292519943295;
+  CHECK(last.stylus.altitude == Approx(60.0 * degree));
+  CHECK(last.stylus.azimuth == Approx(-90.0 * degree));
 }
 
 TEST_CASE("capabilities come from the runtime where it provides them, otherwise from the closest profile",

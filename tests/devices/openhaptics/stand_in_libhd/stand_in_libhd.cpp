@@ -15,9 +15,12 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
@@ -312,9 +315,18 @@ void hdDisable(unsigned capability) {
 
 void hdGetDoublev(unsigned what, double* values) {
   const Lock lock(world().mutex);
-  if (what == 0x2050 || what == 0x2051) {
+  if (what == 0x2050 || what == 0x2051 || what == 0x2052) {
     Device* device = framed();
     if (device == nullptr) return;
+    if (what == 0x2052) {
+      // The stylus leans by 30 degrees from z towards -y, and is turned by 20 about itself.
+      Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+      transform.rotate(Eigen::AngleAxisd(std::numbers::pi / 6.0, Eigen::Vector3d::UnitX()));
+      transform.rotate(Eigen::AngleAxisd(std::numbers::pi / 9.0, Eigen::Vector3d::UnitZ()));
+      transform.translation() = 1e3 * device->frame.position + centre;
+      std::copy_n(transform.data(), 16, values);
+      return;
+    }
     if (what == 0x2050) give(1e3 * device->frame.position + centre, values);
     if (what == 0x2051) give(1e3 * device->frame.velocity, values);
     return;
