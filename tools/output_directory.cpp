@@ -60,7 +60,7 @@ OutputDirectory::OutputDirectory(const fs::path& path, std::string record, bool 
     create(path);
     lock(path);
     check_writable(path);
-    make_room(path, force);
+    for (const char* const any : {summary_file, replay_file, stability_file, tradeoff_file}) make_room(path, any, force);
     write_record();
   } catch (const fs::filesystem_error& error) {
     release();
@@ -104,11 +104,11 @@ void OutputDirectory::check_writable(const fs::path& path) const {
   unlink(name.c_str());
 }
 
-void OutputDirectory::make_room(const fs::path& path, bool force) const {
-  const fs::path at = path_ / name_;
+void OutputDirectory::make_room(const fs::path& path, const char* record, bool force) const {
+  const fs::path at = path_ / record;
   if (!fs::exists(fs::symlink_status(at))) return;
   const Json old = record_at(at);
-  const std::string told = (path / name_).string();
+  const std::string told = (path / record).string();
   if (!force) {
     throw FileError(told,
                     "already there, from " + run_of(old) + "; choose another directory, or replace it with --force");

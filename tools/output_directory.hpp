@@ -10,13 +10,19 @@
 
 namespace calligraphy::tools {
 
+// The records of runs: the commands that write into a directory have one each.
+inline constexpr const char* summary_file = "summary.json";
+inline constexpr const char* replay_file = "replay.json";
+inline constexpr const char* stability_file = "stability.json";
+inline constexpr const char* tradeoff_file = "tradeoff.json";
+
 /// Creates the directory and its parents if missing; the destructor removes those it created that are still empty, and
 /// nothing else. No other run may use it in the meantime: the system's lock on the directory goes with the process,
 /// however it ends. Where there are no such locks (some network file systems) it is not locked.
 ///
 /// The directory explains itself: a record in JSON says from the start what is run, and lists every file before it is
-/// written, so that a run that was killed is explained too. A run whose record is there is never overwritten, unless
-/// that is forced; then the files that its record lists are removed, and no others. A run that ends by an exception
+/// written, so that a run that was killed is explained too. A run whose record is there, of whichever command, is never overwritten,
+/// unless that is forced; then the files that its record lists are removed, and no others. A run that ends by an exception
 /// before it has written a file leaves no record.
 class OutputDirectory {
  public:
@@ -50,7 +56,7 @@ class OutputDirectory {
   void create(const std::filesystem::path& path);
   void lock(const std::filesystem::path& path);
   void check_writable(const std::filesystem::path& path) const;
-  void make_room(const std::filesystem::path& path, bool force) const;
+  void make_room(const std::filesystem::path& path, const char* record, bool force) const;
   void write_record();
   void release() noexcept;
 

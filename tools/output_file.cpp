@@ -44,16 +44,15 @@ CLI::Option* add_out_file(CLI::App& command, std::string& out) {
       ->type_name("FILE");
 }
 
-CLI::Option* add_out_directory(CLI::App& command, RunOutput& out, const std::string& what, const std::string& record) {
+CLI::Option* add_out_directory(CLI::App& command, RunOutput& out, const std::string& what) {
   const auto is_directory = [](const std::string& word) {
     return word == standard_output ? std::string("several files are written, into a directory; ./- is one named -")
                                    : std::string();
   };
   CLI::Option* const option = add_out(command, out.directory,
                                       "Directory for " + what +
-                                          ", created if missing. It is refused if a run is already there, whose record "
-                                          "is " +
-                                          record + "; other files stay, except those of the same name")
+                                          ", created if missing. It is refused if a run is already there; other files "
+                                          "stay, except those of the same name")
                                   ->check(CLI::Validator(is_directory, ""))
                                   ->type_name("DIR");
   command

@@ -31,9 +31,8 @@ struct RunOutput {
   bool force = false;     ///< a run that is there is replaced
 };
 
-/// Adds -o, --out DIR, where `what` is to be written, as in "plots and JSON", and --force. `record` is the name of the
-/// file that says what was run (OutputDirectory).
-CLI::Option* add_out_directory(CLI::App& command, RunOutput& out, const std::string& what, const std::string& record);
+/// Adds -o, --out DIR, where `what` is to be written, as in "plots and JSON", and --force.
+CLI::Option* add_out_directory(CLI::App& command, RunOutput& out, const std::string& what);
 
 /// Before long work. @throws FileError if the file cannot be written
 void check_output(const std::string& out);

@@ -34,7 +34,6 @@
 namespace calligraphy::tools {
 namespace {
 
-constexpr const char* replay_file = "replay.json";
 constexpr std::size_t most_recognised = 5;
 
 struct ReplayArguments {
@@ -251,7 +250,7 @@ void add_replay(CLI::App& program) {
       ->required()
       ->type_name("PATH");
   add_characters_option(*command, options->characters);
-  add_out_directory(*command, options->out, "pictures and JSON", replay_file);
+  add_out_directory(*command, options->out, "pictures and JSON");
   command->add_option("--only", options->only, "Replay only traces of these characters")->type_name("TEXT");
   command
       ->add_option("--order", options->order,

@@ -56,7 +56,7 @@ nlohmann::ordered_json json_of(const std::filesystem::path& file, const StoredRe
 void replay_recordings(const RecordingReplay& replay) {
   const Interrupt interrupt;
   std::optional<OutputDirectory> out;
-  if (!replay.out.directory.empty()) out.emplace(replay.out.directory, "replay.json", replay.out.force);
+  if (!replay.out.directory.empty()) out.emplace(replay.out.directory, replay_file, replay.out.force);
   const PictureOptions pictures = {replay.style, replay.language, out && can_plot()};
   Summary summary;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();

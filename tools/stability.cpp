@@ -28,7 +28,6 @@
 namespace calligraphy::tools {
 namespace {
 
-constexpr const char* stability_file = "stability.json";
 constexpr double largest = 1e9;  ///< upper limit of most numeric options, as in the library
 
 struct StabilityArguments {
@@ -158,7 +157,7 @@ void add_stability(CLI::App& program) {
   add_number("--wall-damping", options->wall_damping, "Damping of the wall, 0 to 1e9 (default: 0)", "N_S/M");
   add("--grip", options->grip, "Grip: soft, normal, firm or m,b,k [kg, N s/m, N/m] (default: none)", "GRIP")
       ->check(such_as({"soft", "normal", "firm"}));
-  add_out_directory(*command, options->out, "stability.json and stability.svg", stability_file);
+  add_out_directory(*command, options->out, "stability.json and stability.svg");
   command->add_flag("--quick", options->quick, "Only the sweeps of the map, on a coarser grid")
       ->disable_flag_override();
   command->add_flag("--json", options->json, "Print JSON instead of the tables")->disable_flag_override();

@@ -31,7 +31,6 @@
 namespace calligraphy::tools {
 namespace {
 
-constexpr const char* tradeoff_file = "tradeoff.json";
 /// Number of characters written at every servo rate.
 constexpr std::size_t max_written = 2;
 
@@ -151,7 +150,7 @@ void add_tradeoff(CLI::App& program) {
       ->add_option("--ink", options->ink,
                    "hanzi-writer-data (directory or npm tarball): also measure what the ink of TEXT takes and covers")
       ->type_name("PATH");
-  add_out_directory(*command, options->out, "plots and JSON", tradeoff_file);
+  add_out_directory(*command, options->out, "plots and JSON");
   command->add_option("--seed", options->seed, "Seed of all random draws")
       ->check(integer(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("N")

@@ -37,7 +37,6 @@
 namespace calligraphy::tools {
 namespace {
 
-constexpr const char* summary_file = "summary.json";
 
 struct WriteArguments {
   std::string text;
@@ -335,7 +334,7 @@ void add_write(CLI::App& program) {
       ->add_option("TEXT", options->text,
                    "Characters to write; white space is ignored, and so is punctuation that the set lacks")
       ->required();
-  add_out_directory(*command, options->out, "the results", summary_file)->required();
+  add_out_directory(*command, options->out, "the results")->required();
   add_characters_option(*command, options->characters);
   command->add_option("--order", options->order, "Alternate stroke order (default: the standard one)")
       ->type_name("NAME");

@@ -109,9 +109,11 @@ class Runs(ProgramTest):
     def test_a_directory_without_a_record_is_used_and_other_files_stay(self):
         (self.directory / "out").mkdir()
         (self.directory / "out/notes.txt").write_text("mine")
-        for _, run in sorted(self.RUNS.items()):
-            self.run_program(*run, "--out", "out")
-        self.assertEqual((self.directory / "out/notes.txt").read_text(), "mine")
+        self.run_program(*self.RUNS["summary.json"], "--out", "out")
+        for run in self.RUNS.values():  # whichever command it is
+            self.assertIn("out/summary.json: already there", self.run_program(*run, "--out", "out", code=1).stderr)
+        self.run_program(*self.RUNS["replay.json"], "--out", "out", "--force")
+        self.assertEqual(self.files(), ["out", "out/01-一.svg", "out/notes.txt", "out/replay.json", "pens.txt"])
 
     def test_a_killed_run_explains_itself_and_is_replaced_whole(self):
         run = ["write", "一", "--repeat", "100000", "--out", "out"]
