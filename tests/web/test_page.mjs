@@ -285,6 +285,7 @@ testPage("what a pen did is saved as it came, and is written again once it is op
 
   const other = await Tab.open(browser, server.origin, parts);
   try {
+    await other.choose("modes", "watch");  // in which nothing is written
     await other.openFile(name, bytes);
     const again = await written(other);
     assert.deepEqual({ ...again, guided: 0 }, { ...there, guided: 0 });
@@ -312,12 +313,29 @@ testPage("a browser that has only the tilts of a pen saves the same angles", {
   isAsSent(tab, parsed(gunzipSync((await tab.save()).bytes).toString()));
 });
 
-testPage("what a mouse does not sense is not saved, and a character begun anew has nothing to save", {}, async (tab) => {
+testPage("what a mouse does not sense is not saved; what is opened is written on, and saved with what follows", {},
+         async (tab) => {
   await tab.write(yong[0], { as: "mouse" });
-  const { fields, paths } = parsed(gunzipSync((await tab.save()).bytes).toString());
-  assert.deepEqual([fields, paths.map(({ kind }) => kind)], [["buttons"], ["A", "S", "A"]]);
+  const { name, bytes } = await tab.save(), before = parsed(gunzipSync(bytes).toString());
+  assert.deepEqual([before.fields, before.paths.map(({ kind }) => kind)], [["buttons"], ["A", "S", "A"]]);
   await tab.click("#again");
   assert.ok(await tab.page.locator("#save").isDisabled());
+  await tab.openFile(name, bytes);
+  await dueIs(tab, 2);
+  await tab.page.locator("#paper").hover();
+  await tab.pass(50);
+  assert.equal(gunzipSync((await tab.save()).bytes).toString(), gunzipSync(bytes).toString(), "nothing was written");
+  await tab.write(yong[1]);
+  await tab.page.evaluate(() => document.getElementById("paper").dispatchEvent(new PointerEvent("pointermove", {
+    pointerType: "pen", isPrimary: true, buttons: 32, pressure: 0.5, clientX: 99, clientY: 99 })));
+  await tab.pass(50);
+  const { fields, paths, notice } = parsed(gunzipSync((await tab.save()).bytes).toString());
+  assert.deepEqual([fields, paths.map(({ kind }) => kind)], [["pressure", "buttons"], ["A", "S", "A", "S", "A"]]);
+  const places = ({ points }) => points.map(({ x, y, time, buttons }) => [x, y, time, buttons]);
+  assert.deepEqual(paths.slice(0, 2).map(places), before.paths.slice(0, 2).map(places));
+  const { pressure, buttons } = paths.at(-1).points.at(-1);
+  assert.deepEqual([pressure, buttons], [0.5, 32], "the eraser");
+  assert.match(notice, /pointer: mouse.*pointer: pen/s);
 });
 
 testPage("a file that cannot be written again is refused, and why is said", {}, async (tab) => {
@@ -325,21 +343,40 @@ testPage("a file that cannot be written again is refused, and why is said", {}, 
     await tab.openFile("a.txt", text);
     assert.match(await progress(tab), why);
   };
-  await says("C 永 6C38 me 1000 1\nS 1 0 0 zero\n", /^a\.txt cannot be opened: .*a\.txt.*2.*'zero'/);
-  await says("C ض 636 me 1000 1\nS 1 0 0 0\n", /^a\.txt cannot be opened: none of its characters.*ض/);
-  await says(Buffer.from([0x1f, 0x8b, 1, 2]), /^a\.txt cannot be opened: /);
-  await tab.write(yong[0]);
-  await dueIs(tab, 2);
+  await says("C 永 6C38 me 1000 1\nS 1 0 0 zero\n", /^It cannot be opened\. a\.txt:2: .*'zero'/);
+  await says("C ض 636 me 1000 1\nS 1 0 0 0\n", /^It cannot be opened\. a\.txt: none of its characters.*ض/);
+  await says(Buffer.from([0x1f, 0x8b, 1, 2]), /^It cannot be opened\. a\.txt: /);
+  await tab.page.evaluate(() => {
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File(["C 一 4E00 me 1000 1\nS 1 0 0 0\n"], "dropped.txt"));
+    dispatchEvent(new DragEvent("drop", { dataTransfer }));
+  });
+  await tab.page.waitForFunction(() => document.getElementById("character").textContent === "一");
 });
 
 testPage("minutes of scribbling are written again without blocking the page", { hasClock: false }, async (tab) => {
   const points = Array.from({ length: 60e3 }, (_, i) => `${300 + i % 400} ${300 + (i >> 4) % 400} ${5 * i}`);
   const ready = await tab.page.evaluate(() => performance.now());
-  await tab.openFile("long.txt", `C 永 6C38 me 1000 2\nS ${points.length} ${points.join(" ")}\nS 2 500 500 400000 500 500 400200\n`);
+  await tab.openFile("long.txt", ["C 永 6C38 me 1000 2", `S ${points.length} ${points.join(" ")}`,
+                                  "S 2 500 500 400000 500 500 400200", ""].join("\n"));
   await tab.page.waitForFunction(() => document.querySelector("#skip.offered"));  // both pen-downs were refused
   const tasks = await tab.page.evaluate(() => globalThis.longTasks);
   const longestOne = Math.max(0, ...tasks.filter(({ startTime }) => startTime > ready).map(({ duration }) => duration));
   assert.ok(longestOne < 200, `a task took ${longestOne} ms`);
+});
+
+test("the samples of the simulated pen have what the pointer senses", async () => {
+  const { Desk } = await import(pathToFileURL(join(dist, "page/desk.js")));
+  const desk = new Desk(parts.library, parts.library.set_built_in(), "永");
+  const sampled = (...sensed) => {
+    desk.move(0.02, 0.02, true, ...sensed);
+    desk.advance();
+    const { stylus_pressure, stylus_altitude, stylus_azimuth, stylus_twist, buttons } = desk.sample;
+    return [stylus_pressure, stylus_altitude, stylus_azimuth, stylus_twist, buttons];
+  };
+  assert.deepEqual(sampled({ pressure: 0.25, altitude: 1, azimuth: -2, twist: 0.5 }, 3), [0.25, 1, -2, 0.5, 3]);
+  assert.deepEqual(sampled({ pressure: 0 }), [0, NaN, NaN, NaN, 0]);
+  desk.free();
 });
 
 test("of a mouse that hovers for an hour, its last way is kept, and where it was first", async () => {

@@ -1,5 +1,5 @@
 // The page: what is chosen, and how it goes.
-import { constants, load } from "../calligraphy.js";
+import { CalligraphyError, constants, load } from "../calligraphy.js";
 import { openCharacters } from "./characters.js";
 import { Lesson, modes } from "./lesson.js";
 import { Paper } from "./paper.js";
@@ -16,7 +16,8 @@ const tolerances = { lenient: constants.TOLERANCE_LENIENT, normal: constants.TOL
 
 /** The date and the time here, with what they are ahead of UTC. */
 function localTime() {
-  const now = new Date(), ahead = -now.getTimezoneOffset(), two = (/** @type {number} */ n) => String(n).padStart(2, "0");
+  const now = new Date(), ahead = -now.getTimezoneOffset();  // [min]
+  const two = (/** @type {number} */ number) => String(number).padStart(2, "0");
   const offset = `${ahead < 0 ? "-" : "+"}${two(Math.floor(Math.abs(ahead) / 60))}:${two(Math.abs(ahead) % 60)}`;
   return new Date(now.getTime() + ahead * 60e3).toISOString().slice(0, 19) + offset;
 }
@@ -166,7 +167,9 @@ async function main() {
       if (settings.mode === "watch") find("modes").querySelector("input")?.click();  // in which is written
       if (begin(character)) lesson.play(trace);
     } catch (error) {
-      find("progress").textContent = `${file.name} cannot be opened: ${/** @type {Error} */ (error).message}`;
+      const { message } = /** @type {Error} */ (error);  // that of the library names the file and the line
+      const why = error instanceof CalligraphyError ? message.replace(/^\w+: /, "") : `${file.name}: ${message}`;
+      find("progress").textContent = `It cannot be opened. ${why}`;
     }
   }
 

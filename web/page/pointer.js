@@ -79,8 +79,9 @@ export class Pointer {
   #move(event) {
     if (event.pointerType === "pen") this.penTime = event.timeStamp;
     if (this.isDown ? event.pointerId !== this.id : !event.isPrimary) return;
-    if (event.button === 0) return this.isDown ? this.#end(event) : this.#begin(event);  // with another button held
-    if (this.isDown && (event.buttons & 1) === 0) return this.#lift(event.timeStamp);  // its end was lost
+    const isDown = (event.buttons & 1) !== 0, changes = event.button === 0 && isDown !== this.isDown;
+    if (changes) return isDown ? this.#begin(event) : this.#end(event);  // while another button is held
+    if (this.isDown && !isDown) return this.#lift(event.timeStamp);  // its end was lost
     const coalesced = event.getCoalescedEvents?.() ?? [];
     this.#add(coalesced.length > 0 ? coalesced : [event], this.isDown);
     return undefined;
