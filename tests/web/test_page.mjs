@@ -292,6 +292,9 @@ testPage("what a pen did is saved as it came, and is written again once it is op
     // A sample may be taken a tick earlier than it was.
     assert.ok(Math.abs(again.guided / there.guided - 1) < 0.005, `${again.guided} and ${there.guided} pixels`);
     assert.equal(gunzipSync((await other.save()).bytes).toString(), text, "saved again, it is the same file");
+    await other.openFile("without.txt", text.replace("F pressure ", "F force "));
+    await isWritten(other);
+    assert.notEqual(await other.fingerprint("ink"), there.own, "the ink is as wide as it was pressed");
     isQuiet(other, server.origin);
   } finally {
     await other.close();
@@ -304,13 +307,16 @@ testPage("what a pen did is saved as it came, and is written again once it is op
   assert.match(said, /二/);
 });
 
-testPage("a browser that has only the tilts of a pen saves the same angles", {
+testPage("a browser that has only the tilts of a pen, and cannot compress, saves the same as text", {
   character: "一", before: () => {
     for (const name of ["altitudeAngle", "azimuthAngle"]) delete PointerEvent.prototype[name];
+    delete globalThis.CompressionStream;
   },
 }, async (tab) => {
   await tab.write(parts.strokesOf("一")[0], { force: dyadic, sensed: turned });
-  isAsSent(tab, parsed(gunzipSync((await tab.save()).bytes).toString()));
+  const { name, bytes } = await tab.save();
+  assert.match(name, /\.pens\.txt$/);
+  isAsSent(tab, parsed(bytes.toString()));
 });
 
 testPage("what a mouse does not sense is not saved; what is opened is written on, and saved with what follows", {},
