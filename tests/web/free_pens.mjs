@@ -80,7 +80,7 @@ function isKnown(character) {
 /** Whether they are the strokes of the character, in order and direction. */
 function isRight(desk, penDowns) {
   const paths = penDowns.map((points) => points.map((point) => point.slice(0, 2)));
-  return library.match(desk.page, 0, paths, constants.TOLERANCE_NORMAL).remarks.length === 0;
+  return library.match(desk.page, 0, paths).remarks.length === 0;
 }
 
 const counts = { characters: 0, strokes: 0, lenient: 0, normal: 0 };
