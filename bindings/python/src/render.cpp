@@ -1,6 +1,7 @@
 // The haptic renderer, tick by tick or over a whole trace, and the stiffness bounds.
 #include <calligraphy/devices/detail/flush_denormals.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
+#include <calligraphy/render/option_values.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
 #include "components.hpp"
@@ -109,6 +110,16 @@ void add_render(py::module_& module) {
              "capabilities"_a, "scale"_a = 1.0,
              "Raises InvalidValue naming an option out of range, or a stiffness or damping that would be clipped.");
 
+  module.def(
+      "option_values",
+      [](const RendererOptions& options) {
+        py::typing::Dict<py::str, py::str> values;
+        for (const OptionValue& option : option_values(options)) values[option.name.c_str()] = option.value;
+        return values;
+      },
+      "options"_a, "+ Values by name.");
+  module.def("set_option", &set_option, "options"_a, "name"_a, "value"_a);
+
   add_struct<MotionMapping>(module)
       .def("to_page", mapped(&MotionMapping::to_page, "device"), "device"_a, "+ (3,) [m] to (3,) [m].")
       .def("to_device", mapped(&MotionMapping::to_device, "page"), "page"_a, "+ (3,) [m] to (3,) [m].")
@@ -118,6 +129,8 @@ void add_render(py::module_& module) {
 
   module.def("to_string", py::overload_cast<WritingHint>(&to_string), "hint"_a,
              "The name of a hint, such as \"too_far\"; for people hint_text() puts it into words.");
+  module.def("to_string", py::overload_cast<InteractionState>(&to_string), "state"_a, "A state as in write_ticks().");
+  module.def("to_string", py::overload_cast<TickStatus>(&to_string), "status"_a, "A status as in write_ticks().");
   const TickColumns columns(module);
 
   py::class_<HapticRenderer>(module, "HapticRenderer", py::is_final(),
