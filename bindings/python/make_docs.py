@@ -34,6 +34,7 @@ WORDS = {
     r"(?s)\s*@param\s+(\w+)": r" `\1`:",
     r"\bValueError\b": "InvalidValue",
     r"\b(?:nullptr|std::nullopt)\b": "None",
+    r"`keep`": "`store`",
     r"\bstd::": "",
     r"\bphantom::": "",
     r"(?<=\w)::(?=~?\w)": ".",

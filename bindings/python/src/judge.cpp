@@ -214,9 +214,11 @@ void add_judge(py::module_& module) {
   module.attr("eraser_button") = eraser_button;
   add_types<StylusState>(module);
   module.def("set_tilt", &set_tilt, "stylus"_a, "tilt_x"_a, "tilt_y"_a);
-  module.def("read_pen_traces", from_file(&read_pen_traces), "path"_a);
-  module.def("write_pen_traces", to_file(&write_pen_traces), "path"_a, "traces"_a, "notice"_a = "",
-             "+ Atomically. Raises FileError.");
+  module.def("read_pen_traces",
+             from_file<std::vector<PenTrace>, std::string>(&read_pen_traces, &read_pen_traces, CutOff::refused),
+             "path"_a, "+ The file may be compressed by gzip.");
+  module.def("write_pen_traces", to_file<Gzip::by_name>(&write_pen_traces), "path"_a, "traces"_a, "notice"_a = "",
+             "+ Atomically, compressed if the name ends in .gz. Raises FileError.");
 
   py::class_<CharacterIndex>(module, "CharacterIndex")
       .def(py::init(released(+[](const CharacterSet& set) { return CharacterIndex(set); })), "characters"_a)

@@ -175,14 +175,33 @@ void end_all() {
 
 using Watch = std::optional<py::typing::Callable<py::object(const LiveView&)>>;
 
-LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOptions options, const Watch& watch) {
+LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOptions options, const Watch& watch,
+                      std::optional<std::filesystem::path> path) {
   PythonDevice::refuse_without_capabilities(device);
   const AtWork at_work({AtWork::User::loop}, &device);
   const LiveSession counted;
   std::exception_ptr raised;
   bool is_first = true;
   std::string advice;
+  Store store(std::move(path));
+  // What is thrown ends the session by `watch`, so that there is a result. Requires the GIL.
+  const auto storing = [&](const auto& act) {
+    try {
+      act();
+    } catch (const Error&) {
+      if (raised) return;
+      py::detail::try_translate_exceptions();
+      raised = std::make_exception_ptr(py::error_already_set());
+    }
+  };
+  options.keep = [&](const Recording& recording) {
+    if (!store) return;
+    if (!store.is_open()) return store.take(recording);  // nothing has been written yet, and there is no force
+    const py::gil_scoped_acquire gil;
+    storing([&] { store.take(recording); });
+  };
   options.watch = [&](const LiveView& view) {
+    if (raised) return false;
     const py::gil_scoped_acquire gil;
     try {
       if (std::exchange(is_first, false)) {
@@ -209,6 +228,7 @@ LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOption
   };
   LiveResult result = released(write)(page, &device, options);
   if (!raised) raised = std::exchange(result.error, nullptr);
+  if (!raised) storing([&] { store.finish(); });
   if (!raised) return result;
   try {
     std::rethrow_exception(raised);
@@ -272,10 +292,11 @@ void add_live(py::module_& module) {
       .def_readonly("warnings", &LiveResult::warnings);
   module.def("with_peak_force", &with_peak_force, "capabilities"_a, "peak_force"_a);
   module.def("write_with_device", &write_live, "page"_a, "device"_a, "options"_a = LiveOptions{},
-             "watch"_a = py::none(),
+             "watch"_a = py::none(), "store"_a = py::none(),
              "+ `watch` is called with a LiveView about 50 times per second. The warnings, and the device's advice "
              "whenever it changes, are issued by warnings.warn() too. Also ends on Ctrl-C, or on an "
-             "exception of `watch` or of a law, which has the LiveResult as its attribute `result`.");
+             "exception of `watch` or of a law, which has the LiveResult as its attribute `result`; `store` "
+             "is as in write_page(); after an exception what was written is in PATH.part.");
   // At exit no force may remain, nor threads that would call into a finalised interpreter.
   py::module_::import("atexit").attr("register")(py::cpp_function(&end_all));
 }

@@ -7,6 +7,7 @@
 #include <calligraphy/pictures/picture.hpp>
 #include <calligraphy/practice/hint_text.hpp>
 #include <calligraphy/practice/mean_interval.hpp>
+#include <calligraphy/practice/recording_file.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 
@@ -29,9 +30,9 @@ std::vector<Row> structs_of(const ArrayLike& given, const char* name) {
 
 /// A recording from structured arrays.
 Recording recording_of(double rate, const ArrayLike& samples, std::uint32_t page, std::string law,
-                       const ArrayLike& inputs) {
-  Recording result{rate, structs_of<RecordedSample>(samples, "samples"), page, std::move(law),
-                   structs_of<DeviceState>(inputs, "inputs")};
+                       const ArrayLike& inputs, std::optional<RecordingSetup> setup) {
+  Recording result{rate,           structs_of<RecordedSample>(samples, "samples"), page,
+                   std::move(law), structs_of<DeviceState>(inputs, "inputs"),      std::move(setup)};
   if (!(std::isfinite(rate) && rate > 0.0))
     throw ValueError("rate: expected a finite number above 0, got " + std::to_string(rate));
   for (std::size_t i = 0; i < result.samples.size(); ++i) {
@@ -65,22 +66,45 @@ py::array rows_of(const py::object& self) {
   return result;
 }
 
-/// Runs the function without the GIL; an additional last argument is called with the progress.
-template <class Result, class... Arguments>
-auto reporting(Result (*function)(Arguments...)) {
-  return [function](std::remove_cvref_t<Arguments>... given, const Progress& progress) {
+/// The set-up as a file has it, without a law that is not the library's.
+std::optional<RecordingSetup> setup_of(const Recording& recording) {
+  std::optional<RecordingSetup> setup = recording.setup;
+  if (setup && setup->has_own_law) setup->renderer.guidance.force = GuidanceOptions().force;
+  return setup;
+}
+
+/// Without the set-up, which is long.
+py::object represented_recording(const py::object& self) {
+  const py::tuple names = py::make_tuple("rate", "samples", "page", "law", "inputs");
+  const py::str text = py::module_::import("calligraphy._struct").attr("represented")(self, names);
+  if (!self.cast<const Recording&>().setup) return text;
+  return py::str("{}, setup=RecordingSetup(...))").format(text[py::slice(0, -1, 1)]);
+}
+
+/// Runs a session without the GIL; two additional last arguments are called with the progress, and have the path of a
+/// file that stores the recording as it grows.
+template <class... Arguments>
+auto reporting(Recording (*function)(Arguments...)) {
+  return [function](std::remove_cvref_t<Arguments>... given, const Progress& progress,
+                    std::optional<std::filesystem::path> path) {
+    Store store(std::move(path));
     const auto report = [&](auto& value) {
-      if constexpr (requires { value.progress; }) value.progress = interruptible(progress);
+      if constexpr (requires { value.progress; }) {
+        value.progress = interruptible(progress);
+        if (store) value.keep = [&store](const Recording& recording) { store.take(recording); };
+      }
     };
     (report(given), ...);
-    return released(function)(given...);
+    Recording recording = released(function)(given...);
+    store.finish();
+    return recording;
   };
 }
 
 }  // namespace
 
 void add_practice(py::module_& module) {
-  add_types<PageLayout, PracticePage, MeanInterval, InkDetail, StrokeStyle>(module);
+  add_types<PageLayout, PracticePage, MeanInterval, InkDetail, StrokeStyle, RecordingSetup>(module);
   add_struct<WriterSkill>(module)
       .def_static("novice", &WriterSkill::novice)
       .def_static("skilled", &WriterSkill::skilled);
@@ -93,7 +117,8 @@ void add_practice(py::module_& module) {
   module.attr("sample_dtype") = dtype_of_struct<RecordedSample>();
   module.attr("input_dtype") = dtype_of_struct<DeviceState>();
   py::class_<Recording>(module, "Recording")
-      .def(py::init(&recording_of), "rate"_a, "samples"_a, "page"_a = 0, "law"_a = "", "inputs"_a = py::list())
+      .def(py::init(&recording_of), "rate"_a, "samples"_a, "page"_a = 0, "law"_a = "", "inputs"_a = py::list(),
+           "setup"_a = py::none())
       .def_readonly("rate", &Recording::rate)
       .def_readonly("page", &Recording::page)
       .def_readonly("law", &Recording::law)
@@ -102,9 +127,25 @@ void add_practice(py::module_& module) {
       .def_property_readonly("inputs", &rows_of<&Recording::inputs>,
                              "+ A structured array (n,) or (0,), a read-only view of the recording (input_dtype); "
                              "`force` is that of the device, `tip_force` that of the pen on the paper.")
+      .def_property_readonly("setup", &setup_of,
+                             "a RecordingSetup, copied, or None if it is not known; of a law with has_own_law there is "
+                             "only the name, in `law`")
+      .def("__repr__", &represented_recording)
       .def("__len__", [](const Recording& self) { return self.samples.size(); });
-  module.def("write_recording", to_file(&write_recording), "path"_a, "recording"_a, "+ Atomically. Raises FileError.");
-  module.def("read_recording", from_file(&read_recording), "path"_a);
+  py::class_<StoredRecording>(module, "StoredRecording")
+      .def_readonly("recording", &StoredRecording::recording)
+      .def_readonly("is_complete", &StoredRecording::is_complete)
+      .def_readonly("has_same_forces", &StoredRecording::has_same_forces);
+  module.def("write_recording", to_file<Gzip::by_name>(&write_recording), "path"_a, "recording"_a,
+             "+ Atomically, compressed if the name ends in .gz. Raises FileError.");
+  module.def("read_recording",
+             from_file<StoredRecording, std::filesystem::path>(&read_recording, &read_recording, CutOff::accepted),
+             "path"_a,
+             "Reads the file of a recording, compressed by gzip or not, whole or cut off anywhere after the first "
+             "tick. Raises FileError when it cannot be opened, FormatError naming the file and, of a plain text, the line.");
+  module.def("write_ticks", to_file<Gzip::by_name>(&write_ticks), "path"_a, "recording"_a,
+             "+ Atomically, compressed if the name ends in .gz. Raises FileError.");
+  module.def("replayed", released(&replayed), "recording"_a);
   module.def("device_states", released(&device_states), "recording"_a, "mapping"_a);
 
   module.def("workspace_layout", &workspace_layout, "device"_a, "mapping"_a = MotionMapping{});
@@ -114,22 +155,29 @@ void add_practice(py::module_& module) {
       "characters"_a, "layout"_a = PageLayout{});
 
   module.def("write_page", reporting(&write_page), "page"_a, "options"_a, "progress"_a = py::none(),
-             "+ progress(share) is called from time to time.");
+             "store"_a = py::none(),
+             "+ progress(share) is called from time to time. `store` is the path of a file for read_recording(), "
+             "compressed if the name ends in .gz, which is written while the recording is made: until the call returns "
+             "there is PATH.part with everything up to a quarter of a second before. An existing file is refused: "
+             "FileError.");
   module.def("follow_trace", reporting(&follow_trace), "page"_a, "trace"_a, "options"_a, "progress"_a = py::none(),
-             "+ See write_page for progress.");
+             "store"_a = py::none(), "+ See write_page for progress and store.");
   module.def(
       "replay_page",
-      [](const PracticePage& page, ReplayDevice& device, const SessionOptions& options, const Progress& progress) {
+      [](const PracticePage& page, ReplayDevice& device, const SessionOptions& options, const Progress& progress,
+         std::optional<std::filesystem::path> path) {
         const AtWork at_work({AtWork::User::call}, &device);
         return reporting(+[](const PracticePage& on, ReplayDevice* const& of, const SessionOptions& chosen) {
           return replay_page(on, *of, chosen);
-        })(page, &device, options, progress);
+        })(page, &device, options, progress, std::move(path));
       },
-      "page"_a, "device"_a, "options"_a, "progress"_a = py::none(), "+ See write_page for progress.");
+      "page"_a, "device"_a, "options"_a, "progress"_a = py::none(), "store"_a = py::none(),
+      "+ See write_page for progress and store.");
   module.def(
       "run_session", reporting(&run_session), "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
+      "store"_a = py::none(),
       "+ motion(tick, seconds) takes a HapticTick and the period of a tick [s], and returns an Intention in page "
-      "coordinates, or None to end.");
+      "coordinates, or None to end. See write_page for progress and store.");
 
   module.def(
       "hint_text",

@@ -22,6 +22,7 @@
 #include <calligraphy/render/haptic_renderer.hpp>
 
 #include "arrays.hpp"
+#include "gzip.hpp"
 
 namespace calligraphy::python {
 
@@ -53,15 +54,37 @@ auto from_file(Value (*read)(const Path&)) {
     return read(path.string());
   };
 }
+/// Reads a file, compressed by gzip or not, without the GIL.
+template <class Value, class Path>
+auto from_file(Value (*read)(const Path&), Value (*parse)(std::istream&, std::string_view), CutOff cut_off) {
+  return [=](const std::filesystem::path& path) {
+    const pybind11::gil_scoped_release release;
+    if (!is_gzip(path)) return read(path.string());
+    const std::string content = read_file(path, max_text_bytes);
+    std::istringstream text([&] {
+      const pybind11::gil_scoped_acquire gil;
+      return inflated(content, path.string(), cut_off);
+    }());
+    return parse(text, path.string());
+  };
+}
+
+enum class Gzip { never, by_name };
+
 /// Writes a file without the GIL: all of it or nothing.
-template <class... Arguments>
+template <Gzip gzip = Gzip::never, class... Arguments>
 auto to_file(void (*write)(std::ostream&, Arguments...)) {
   return [write](const std::filesystem::path& path, const std::remove_cvref_t<Arguments>&... given) {
     const std::tuple<Kept<Arguments>...> kept(given...);
     const pybind11::gil_scoped_release release;
     std::ostringstream out;
     std::apply([&](const auto&... each) { write(out, each...); }, kept);
-    write_file(path, out.str());
+    std::string content = std::move(out).str();
+    if (gzip == Gzip::by_name && is_named_gzip(path)) {
+      const pybind11::gil_scoped_acquire gil;
+      content = deflated(content);
+    }
+    write_file(path, content);
   };
 }
 

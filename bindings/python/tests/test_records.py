@@ -273,7 +273,8 @@ def test_pages_are_equal_if_their_characters_are():
 RESULTS = {
     "NearestPoints": lambda: cal.nearest_point([[0, 0], [1, 2], [3, 0]], [[0, 1], [2, 2], [np.nan, 0]]),
     "Recording": lambda: cal.Recording(
-        500.0, np.ones(3, dtype=cal.sample_dtype), inputs=np.ones(3, dtype=cal.input_dtype)
+        500.0, np.ones(3, dtype=cal.sample_dtype), inputs=np.ones(3, dtype=cal.input_dtype),
+        setup=cal.RecordingSetup(mode="vision"),
     ),
     "StrokeInput": lambda: cal.StrokeInput(1, [[0, 0], [1, 1]], [1.0, 2.0], ink=cal.StrokeInk(start=0.1)),
     "PenTrace": lambda: cal.PenTrace(
@@ -288,7 +289,7 @@ RESULTS = {
 }
 PARTS = {
     "NearestPoints": ("parameter", "point", "distance", "tangent", "status", "certified"),
-    "Recording": ("rate", "samples", "inputs"),
+    "Recording": ("rate", "samples", "inputs", "setup"),
     "StrokeInput": ("id", "control_points", "attraction_factors", "elements", "ink"),
     "PenTrace": ("character", "set", "em", "strokes", "stylus", "buttons", "air"),
     "CharacterList": ("characters", "provenance"),
@@ -335,7 +336,7 @@ def test_other_classes_have_a_one_line_repr(written):
         (renderer, "HapticRenderer(page of 1 at 1000 Hz)"),
         (recording,
          f"Recording(rate=1000.0, samples=array({len(recording)},), page={recording.page}, law='linear: 600 N/m', "
-         f"inputs=array({len(recording)},))"),
+         f"inputs=array({len(recording)},), setup=RecordingSetup(...))"),
         (cal.PenTrace("一", [[[0, 0, 0]]], set="mine"),
          "PenTrace(character='一', strokes=[[[0.0, 0.0, 0.0]]], set='mine', em=1000.0)"),
         (cal.PenTrace("一", [[[0, 0, 0]]], buttons=[[1]], air=[[], []]),

@@ -91,7 +91,7 @@ def test_a_recording_keeps_what_came_in():
     assert np.array_equal(inputs["time"], recording.samples["time"])
     assert np.nanmax(inputs["pressure"]) > 0 and np.nanmax(inputs["height"]) > 0 and np.isnan(inputs["tip_force"]).all()
     assert inputs["force"].shape == (len(inputs), 3)
-    kept = {name: getattr(recording, name) for name in ("rate", "samples", "page", "law")}
+    kept = {name: getattr(recording, name) for name in ("rate", "samples", "page", "law", "setup")}
     assert cal.Recording(**kept, inputs=inputs.copy()) == recording != cal.Recording(**kept)
     assert len(cal.Recording(**kept).inputs) == 0
 

@@ -71,7 +71,7 @@ def others_run_while(call):
 
 def released(tmp_path):
     """Calls that must release the GIL."""
-    file, characters = tmp_path / "one.csv", tmp_path / "characters.txt"
+    file, characters = tmp_path / "one.recording.gz", tmp_path / "characters.txt"
     traces = tmp_path / "traces.txt"
     cal.write_recording(file, RECORDING)
     cal.write_characters(str(characters), CHARACTERS)
@@ -89,6 +89,8 @@ def released(tmp_path):
         "score": lambda: cal.score_page(SHORT, RECORDING),
         "write_recording": lambda: cal.write_recording(file, RECORDING),
         "read_recording": lambda: cal.read_recording(file),
+        "replayed": lambda: cal.replayed(RECORDING),
+        "write_ticks": lambda: cal.write_ticks(tmp_path / "ticks.csv", RECORDING),
         "read_pen_traces": lambda: cal.read_pen_traces(str(traces)),
         "write_pen_traces": lambda: cal.write_pen_traces(traces, [TRACE]),
         "import_characters": lambda: cal.import_characters(characters),
