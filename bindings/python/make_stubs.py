@@ -25,6 +25,7 @@ TYPES = {
     r"numpy\.bool\b": "numpy.bool_",
     r"def __enter__\(self\) -> \w+(\.\w+)?": "def __enter__(self: Self) -> Self",
     r"-> Any:": "-> typing.Any:",
+    r"npt\.NDArray\[Any\]": "numpy.typing.NDArray[typing.Any]",
     r"def error\(self\) -> [\w.]+": "def error(self) -> BaseException | None",
 }
 MEMBERS = """

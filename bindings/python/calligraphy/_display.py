@@ -186,6 +186,33 @@ def _to_pandas(self: cal.Recording) -> Any:
     return pandas.DataFrame(columns)
 
 
+def _texts(kind: Any, codes: npt.NDArray[Any]) -> npt.NDArray[np.str_]:
+    """to_string() of the members of an enumeration with these values."""
+    return np.array([cal.to_string(member) for member in kind])[codes]
+
+
+@_method(cal.Recording, "columns")
+def _columns(self: cal.Recording) -> dict[str, npt.NDArray[Any]]:
+    """One-dimensional arrays with an element per tick, named as the columns of write_ticks() but not rounded.
+
+    Those from buttons on only if there are inputs. state and status are str: to_string() of an InteractionState, such
+    as "SS", and of a TickStatus. events is the sum of TickEvent's bits.
+    """
+    samples, inputs = self.samples, self.inputs
+    columns: dict[str, Any] = {"time_s": samples["time"] - samples["time"][:1]}
+    for name, short, unit in (("device_point", "device", "m"), ("pen_tip", "tip", "m"), ("force", "force", "N")):
+        columns.update({f"{short}_{axis}_{unit}": samples[name][:, i].copy() for i, axis in enumerate("xyz")})
+    columns["state"] = _texts(cal.InteractionState, samples["state"])
+    columns["events"] = samples["events"].copy()
+    columns["status"] = _texts(cal.TickStatus, samples["status"])
+    columns.update({name: samples[name].copy() for name in ("character", "stroke", "tick_ns")})
+    if len(inputs) == len(samples):
+        units = {"tip_force": "_N", "altitude": "_rad", "azimuth": "_rad", "twist": "_rad", "height": "_m"}
+        for name in ("buttons", "pressure", *units):
+            columns[name + units.get(name, "")] = inputs[name].copy()
+    return columns
+
+
 def _svg(width: float, height: float, content: str) -> str:
     size = f"{width + 2 * _MARGIN:g}", f"{height + 2 * _MARGIN:g}"
     return (
