@@ -7,6 +7,7 @@ A Phantom needs a wire profile (docs/wire-profile.md). Otherwise the vendor's ru
 from __future__ import annotations
 
 import argparse
+import datetime
 import os
 import pathlib
 from typing import Callable, Optional
@@ -74,9 +75,10 @@ def main() -> None:
         options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(able), peak_force=arguments.peak_force)
         watch: Optional[Watch] = LedPointer(device, page) if isinstance(device, cal.PointerDevice) else None
         name = ("simulated " if isinstance(device, cal.PointerDevice) else "") + able.model
+        store = arguments.out / f"{datetime.datetime.now():%Y-%m-%d-%H%M%S}.recording.gz"  # written as it comes
         print(f"{name}: write {name_of(page.characters[0].character)}; press Ctrl-C to stop")
         try:
-            result = cal.write_with_device(page, device, options, watch)
+            result = cal.write_with_device(page, device, options, watch, store)
         except KeyboardInterrupt as pressed:
             result = pressed.result  # type: ignore[attr-defined]
 
