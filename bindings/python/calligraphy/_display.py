@@ -186,7 +186,7 @@ def _to_pandas(self: cal.Recording) -> Any:
     return pandas.DataFrame(columns)
 
 
-def _texts(kind: Any, codes: npt.NDArray[Any]) -> npt.NDArray[np.str_]:
+def _texts(kind: Any, codes: npt.NDArray[Any]) -> Any:
     """to_string() of the members of an enumeration with these values."""
     return np.array([cal.to_string(member) for member in kind])[codes]
 
