@@ -110,6 +110,8 @@ class GzipReader::Buffer : public std::streambuf {
   }
   ~Buffer() override { inflateEnd(&stream_); }
 
+  bool was_cut_off() const noexcept { return was_cut_off_; }
+
  protected:
   int_type underflow() override {
     const std::size_t count = is_compressed_ ? inflate_some() : read_some(text_.data());
@@ -127,14 +129,18 @@ class GzipReader::Buffer : public std::streambuf {
   std::size_t inflate_some() {
     stream_.next_out = reinterpret_cast<Bytef*>(text_.data());
     stream_.avail_out = block;
-    while (stream_.avail_out == block && !is_finished_) {
+    while (stream_.avail_out == block) {
       if (stream_.avail_in == 0) {
         stream_.next_in = reinterpret_cast<Bytef*>(compressed_.data());
         stream_.avail_in = static_cast<uInt>(read_some(compressed_.data()));
-        if (stream_.avail_in == 0) break;  // cut off
+        if (stream_.avail_in == 0) {
+          was_cut_off_ = !is_at_end_;
+          break;
+        }
       }
       const int result = inflate(&stream_, Z_SYNC_FLUSH);
-      is_finished_ = result == Z_STREAM_END;
+      is_at_end_ = result == Z_STREAM_END;
+      if (is_at_end_) inflateReset(&stream_);  // another may follow, as after `cat a.gz b.gz`
       if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR) {
         throw FormatError(path_.string() + ": the compressed data is damaged");
       }
@@ -145,7 +151,8 @@ class GzipReader::Buffer : public std::streambuf {
   std::filesystem::path path_;
   std::ifstream file_;
   bool is_compressed_ = false;
-  bool is_finished_ = false;
+  bool is_at_end_ = false;  ///< of what was compressed at once
+  bool was_cut_off_ = false;
   z_stream stream_ = {};
   std::array<char, block> text_;
   std::array<char, block> compressed_;
@@ -158,5 +165,7 @@ GzipReader::GzipReader(const std::filesystem::path& path)
 }
 
 GzipReader::~GzipReader() = default;
+
+bool GzipReader::was_cut_off() const noexcept { return buffer_->was_cut_off(); }
 
 }  // namespace calligraphy::tools

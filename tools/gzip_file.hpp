@@ -32,6 +32,9 @@ class GzipReader : public std::istream {
   explicit GzipReader(const std::filesystem::path& path);
   ~GzipReader() override;
 
+  /// Whether what was read has no end.
+  bool was_cut_off() const noexcept;
+
  private:
   class Buffer;
   std::unique_ptr<Buffer> buffer_;

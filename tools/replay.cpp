@@ -64,6 +64,7 @@ std::vector<Chosen> chosen_traces(const ReplayArguments& options) {
   int position = 0;
   GzipReader in(options.traces);
   for (PenTrace& trace : read_pen_traces(in, options.traces)) chosen.push_back({++position, std::move(trace)});
+  if (in.was_cut_off()) throw FormatError(options.traces + ": the file is truncated");
   if (options.only) {
     const auto is_there = [&chosen](char32_t code) {
       return std::any_of(chosen.begin(), chosen.end(),
