@@ -15,9 +15,9 @@ cat << END
 
 In $PWD/demo, which the next run of this script replaces:
   NN-CHARACTER-MODE.svg        the page: template blue, active character yellow, trace green
-  NN-CHARACTER-MODE-force.svg  force over time
-  NN-CHARACTER-MODE.csv        the trace, tick by tick
-  page-N-MODE-1.csv            the trace of the whole page
+  NN-CHARACTER-force-force.svg force over time
+  page-N-MODE-1.recording.gz   everything that came in; `calligraphy replay` makes the forces again
+  strokes.csv                  a line per stroke
   summary.json                 the table above, scores, and the reason of each mistake
 
 A picture leaves out attempts that were abandoned. Other characters, and what force changes over 20 pairs of trials:

@@ -1,6 +1,8 @@
 #include "kept_recording.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <tuple>
 
 #include <calligraphy/base/error.hpp>
 
@@ -33,6 +35,7 @@ void KeptRecording::finish() {
 }
 
 void KeptRecording::discard() {
+  if (!file_) return;
   file_.reset();
   out_.remove(name_ + partial_suffix);
 }
@@ -50,18 +53,28 @@ StoredRecording open_recording(const std::filesystem::path& path) {
   return read_recording(in, path.string());
 }
 
+PlaceInRun place_in_run(const std::filesystem::path& recording) {
+  PlaceInRun place;
+  char mode[8];
+  const std::string name = recording.filename().string();
+  if (std::sscanf(name.c_str(), "page-%d-%7[a-z]-%d", &place.page, mode, &place.repetition) != 3) return {};
+  return place;
+}
+
 std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& directory) {
-  std::vector<std::filesystem::path> finished, partial;
+  std::vector<std::filesystem::path> found;
   for (const auto& entry : std::filesystem::directory_iterator(directory)) {
     const std::string name = entry.path().filename().string();
-    if (name.ends_with(recording_suffix)) finished.push_back(entry.path());
-    if (name.ends_with(std::string(recording_suffix) + partial_suffix)) partial.push_back(entry.path());
+    const bool is_one = name.ends_with(recording_suffix) ||
+                        name.ends_with(std::string(recording_suffix) + partial_suffix);
+    if (is_one && entry.file_size() > 0) found.push_back(entry.path());  // empty: stopped before anything was written
   }
-  std::sort(finished.begin(), finished.end());
-  std::sort(partial.begin(), partial.end());
-  finished.insert(finished.end(), partial.begin(), partial.end());
-  if (finished.empty()) throw FileError(directory.string() + ": there is no recording in this directory");
-  return finished;
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    const PlaceInRun of_a = place_in_run(a), of_b = place_in_run(b);
+    return std::tie(of_a.page, of_a.repetition, a) < std::tie(of_b.page, of_b.repetition, b);
+  });
+  if (found.empty()) throw FileError(directory.string() + ": there is no recording in this directory");
+  return found;
 }
 
 }  // namespace calligraphy::tools

@@ -14,7 +14,6 @@
 
 namespace calligraphy::tools {
 
-inline constexpr const char* recording_suffix = ".recording.gz";
 inline constexpr const char* partial_suffix = ".part";  ///< after it, until the recording is finished
 
 /// Stores what a recording has gained, at least every tenth of a second while it is called. Until it is finished the
@@ -28,7 +27,7 @@ class KeptRecording {
   void take(const Recording& recording);
   /// Ends the file and gives it its name. @throws FileError
   void finish();
-  /// Removes the file.
+  /// Removes the file, if there is one.
   void discard();
 
   const std::string& name() const noexcept { return name_; }
@@ -47,7 +46,14 @@ bool is_recording(const std::filesystem::path& path);
 /// Reads a recording, compressed or not, whole or cut off. @throws FileError, FormatError
 StoredRecording open_recording(const std::filesystem::path& path);
 
-/// The recordings of a run, by name: first those that are finished. @throws FileError if there is none
+/// Where a recording belongs in a run, by its name "page-1-force-1": the number of its page and the repetition, from 1.
+struct PlaceInRun {
+  int page = 0;  ///< 0: the name does not say
+  int repetition = 0;
+};
+PlaceInRun place_in_run(const std::filesystem::path& recording);
+
+/// The recordings of a run in the order of its pages. @throws FileError if there is none
 std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& directory);
 
 }  // namespace calligraphy::tools

@@ -61,6 +61,7 @@ OutputDirectory::OutputDirectory(const fs::path& path, std::string record, bool 
     lock(path);
     check_writable(path);
     for (const char* const any : {summary_file, replay_file, stability_file, tradeoff_file}) make_room(path, any, force);
+    refuse_strangers(path);
     write_record();
   } catch (const fs::filesystem_error& error) {
     release();
@@ -158,7 +159,8 @@ void OutputDirectory::remove(const std::string& name) {
 
 void OutputDirectory::keep(const Json& results) {
   has_results_ = true;
-  explain(results);
+  record_.update(results);
+  write_record();
 }
 
 void OutputDirectory::finish() {
@@ -175,6 +177,14 @@ std::string OutputDirectory::text() const {
 void OutputDirectory::write_record() {
   write_file(path_ / name_, text());
   has_record_ = true;
+}
+
+void OutputDirectory::refuse_strangers(const fs::path& path) const {
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    const std::string name = entry.path().filename().string();
+    if (name.find(recording_suffix) == std::string::npos) continue;
+    throw FileError((path / name).string(), "is there, a recording of no run: choose another directory, or move it away");
+  }
 }
 
 /// rmdir() removes no link, no file and no directory with something in it.

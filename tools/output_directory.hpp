@@ -16,14 +16,16 @@ inline constexpr const char* replay_file = "replay.json";
 inline constexpr const char* stability_file = "stability.json";
 inline constexpr const char* tradeoff_file = "tradeoff.json";
 
+inline constexpr const char* recording_suffix = ".recording.gz";  ///< of the files that a person's work is in
+
 /// Creates the directory and its parents if missing; the destructor removes those it created that are still empty, and
 /// nothing else. No other run may use it in the meantime: the system's lock on the directory goes with the process,
 /// however it ends. Where there are no such locks (some network file systems) it is not locked.
 ///
 /// The directory explains itself: a record in JSON says from the start what is run, and lists every file before it is
 /// written, so that a run that was killed is explained too. A run whose record is there, of whichever command, is never overwritten,
-/// unless that is forced; then the files that its record lists are removed, and no others. A run that ends by an exception
-/// before it has written a file leaves no record.
+/// unless that is forced; then the files that its record lists are removed, and no others. A recording of no run is
+/// never overwritten either. A run that ends by an exception before it has written a file leaves no record.
 class OutputDirectory {
  public:
   /// @param record name of the record
@@ -45,7 +47,7 @@ class OutputDirectory {
   void rename(const std::string& from, const std::string& to);
   /// Removes such a file. @throws FileError
   void remove(const std::string& name);
-  /// Adds results to the record, which then stays. What explain() has said is not changed. @throws FileError
+  /// Adds results to the record, in place of those that it has; it then stays. @throws FileError
   void keep(const nlohmann::ordered_json& results);
   /// Says in the record that the run is finished. @throws FileError
   void finish();
@@ -57,6 +59,7 @@ class OutputDirectory {
   void lock(const std::filesystem::path& path);
   void check_writable(const std::filesystem::path& path) const;
   void make_room(const std::filesystem::path& path, const char* record, bool force) const;
+  void refuse_strangers(const std::filesystem::path& path) const;
   void write_record();
   void release() noexcept;
 

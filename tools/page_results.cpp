@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -44,8 +45,9 @@ std::vector<Result> results_of(const Recording& recording, const PageInRun& wher
     for (const RecordedSample& sample : recording.samples) {
       if (sample.character == index) ticks.push_back(sample.tick_ns);
     }
-    result.tick_p50 = percentile(ticks, 0.5);
-    result.tick_p999 = percentile(ticks, 0.999);
+    const bool is_measured = std::any_of(ticks.begin(), ticks.end(), [](float tick) { return tick > 0.0F; });
+    result.tick_p50 = is_measured ? percentile(ticks, 0.5) : std::numeric_limits<double>::quiet_NaN();
+    result.tick_p999 = is_measured ? percentile(ticks, 0.999) : result.tick_p50;
     result.score = std::move(score);
     result.position = where.first_position + index;
     result.mode = setup.mode;
@@ -56,8 +58,18 @@ std::vector<Result> results_of(const Recording& recording, const PageInRun& wher
   return results;
 }
 
-void draw_page(const Recording& recording, const PageInRun& where, const PictureOptions& options,
-               OutputDirectory& out) {
+void try_to_write(const std::string& name, const std::function<std::string()>& make, OutputDirectory& out,
+                  std::vector<std::string>& warnings) {
+  try {
+    out.write(name, make());
+  } catch (const Error& error) {
+    warnings.push_back(fmt::format("{} is missing: {}", name, error.what()));
+    spdlog::warn("{}", warnings.back());
+  }
+}
+
+void draw_page(const Recording& recording, const PageInRun& where, const PictureOptions& options, OutputDirectory& out,
+               std::vector<std::string>& warnings) {
   const RecordingSetup& setup = *recording.setup;
   const char* const mode = setup.mode == FeedbackMode::vision ? "mode.vision_only" : "mode.vision_and_force";
   for (std::size_t i = 0; i < setup.page.characters.size(); ++i) {
@@ -68,13 +80,7 @@ void draw_page(const Recording& recording, const PageInRun& where, const Picture
     const std::string title =
         fmt::format("{}, {}, {}", encode_utf8(code), options.language.text(mode), setup.device.model);
     const auto draw = [&](const std::string& name, const auto& picture) {
-      std::string text;
-      try {
-        text = picture();
-      } catch (const Error& error) {
-        return spdlog::warn("{} is not drawn: {}", name, error.what());
-      }
-      out.write(name, text);
+      if (!options.is_stopped()) try_to_write(name, picture, out, warnings);
     };
     draw(stem + ".svg",
          [&] { return page_picture(setup.page, recording, index, title, options.style, options.language); });
@@ -86,10 +92,12 @@ void draw_page(const Recording& recording, const PageInRun& where, const Picture
   }
 }
 
-bool can_plot() {
+bool can_plot(std::vector<std::string>& warnings) {
   const bool can = gnuplot_available();
-  if (!can) spdlog::warn("gnuplot is not available: forces are not plotted");
-  return can;
+  if (can) return true;
+  warnings.push_back("gnuplot is not available: forces are not plotted");
+  spdlog::warn("{}", warnings.back());
+  return false;
 }
 
 std::string strokes_table(const std::vector<Result>& results) {
@@ -102,7 +110,7 @@ std::string strokes_table(const std::vector<Result>& results) {
     for (std::size_t i = 0; i < score.strokes.size(); ++i) {
       const StrokeScore& stroke = score.strokes[i];
       text += fmt::format("{},{},{},{},{},{},{}", result.position, encode_utf8(score.character), to_string(result.mode),
-                          result.repetition, result.seed, i + 1, stroke.completed ? 1 : 0);
+                          result.repetition, result.seed ? std::to_string(*result.seed) : "", i + 1, stroke.completed ? 1 : 0);
       const PenDownScore none;
       const bool is_written = stroke.pen_down >= 0;
       const PenDownScore& pen = is_written ? score.pen_downs[static_cast<std::size_t>(stroke.pen_down)] : none;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +21,7 @@ namespace calligraphy::tools {
 struct PageInRun {
   int first_position = 1;  ///< of its first character in the text, from 1
   int repetition = 1;      ///< from 1
-  std::uint64_t seed = 0;
+  std::optional<std::uint64_t> seed = {};  ///< of a simulated writer, if it is known
 };
 
 /// One result per character. The recording must have a set-up. Forces are as the hand feels them, and times since the
@@ -32,15 +34,20 @@ struct PictureOptions {
   StrokeStyle style = StrokeStyle::ink;
   Language language;
   bool has_plots = true;  ///< of the forces, too
+  std::function<bool()> is_stopped = [] { return false; };  ///< asked before each picture
 };
 
 /// Draws a picture of each character of a page and, with force, a force plot: "03-北-force.svg",
-/// "03-北-force-force.svg". One that fails is a warning. @throws FileError if a picture cannot be written
-void draw_page(const Recording& recording, const PageInRun& where, const PictureOptions& options,
-               OutputDirectory& out);
+/// "03-北-force-force.svg". One that fails is told and added to `warnings`.
+void draw_page(const Recording& recording, const PageInRun& where, const PictureOptions& options, OutputDirectory& out,
+               std::vector<std::string>& warnings);
 
-/// Whether gnuplot is there; otherwise says that forces are not plotted.
-bool can_plot();
+/// Writes what a function makes. If it fails, that is told and added to `warnings`: nothing else depends on it.
+void try_to_write(const std::string& name, const std::function<std::string()>& make, OutputDirectory& out,
+                  std::vector<std::string>& warnings);
+
+/// Whether gnuplot works; otherwise that forces are not plotted is told and added to `warnings`.
+bool can_plot(std::vector<std::string>& warnings);
 
 /// The strokes of all results as comma-separated values, a line each, for R and spreadsheets. An empty cell was not
 /// measured.

@@ -103,7 +103,11 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
     return !interrupted();
   };
   LiveResult result = write_with_device(page, *device_, options);
-  if (result.dropped > 0) spdlog::warn("{} ticks are missing from the recording", result.dropped);
+  if (result.dropped > 0) {
+    const std::string warning = fmt::format("{} ticks are missing from a recording", result.dropped);
+    is_new(warning);
+    spdlog::warn("{}", warning);
+  }
   statistics_.push_back(result.statistics);
   return std::move(result.recording);
 }

@@ -185,7 +185,9 @@ class ReplayRun {
     result.position = chosen.position;
     result.set = chosen.trace.set;
     std::vector<PenKinematics> motions;
-    for (const PenStroke& stroke : chosen.trace.strokes) motions.push_back(pen_kinematics(stroke));
+    for (const PenStroke& stroke : chosen.trace.strokes) {
+      if (!is_erasing(stroke)) motions.push_back(pen_kinematics(stroke));
+    }
     result.motion = writing_motion(motions);
     result.guided = score_page(page, recording).front();
     result.guided.peak_force *= options_.page.scale;  // as the hand feels it

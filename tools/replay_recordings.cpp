@@ -11,6 +11,7 @@
 
 #include <calligraphy/base/error.hpp>
 
+#include "commands.hpp"
 #include "counted.hpp"
 #include "interrupt.hpp"
 #include "kept_recording.hpp"
@@ -30,9 +31,10 @@ std::string stem_of(const std::filesystem::path& file) {
 
 /// "page-1-force-1.recording.gz: 12,345 ticks, linear: 600 N/m; the same forces to the last bit".
 std::string description(const std::filesystem::path& file, const StoredRecording& stored) {
-  const char* const forces = !stored.is_complete      ? "incomplete, since whoever wrote it was stopped"
-                             : stored.has_same_forces ? "the same forces to the last bit"
-                                                      : "other forces than then";
+  const char* const forces = !stored.is_complete ? "incomplete: it was cut off, or whoever wrote it was stopped"
+                             : !stored.has_same_forces ? "other forces than in the session"
+                             : stored.recording.setup->has_own_law ? "the forces of an author's own law, as stored"
+                                                                   : "the same forces to the last bit";
   return fmt::format("{}: {}, law {}; {}", file.filename().string(),
                      counted(stored.recording.samples.size(), "tick"), stored.recording.law, forces);
 }
@@ -56,35 +58,50 @@ nlohmann::ordered_json json_of(const std::filesystem::path& file, const StoredRe
 void replay_recordings(const RecordingReplay& replay) {
   const Interrupt interrupt;
   std::optional<OutputDirectory> out;
-  if (!replay.out.directory.empty()) out.emplace(replay.out.directory, replay_file, replay.out.force);
-  const PictureOptions pictures = {replay.style, replay.language, out && can_plot()};
+  const std::filesystem::path to = replay.out.directory;
+  for (const std::filesystem::path& file : replay.files) {
+    std::error_code none;
+    if (!to.empty() && std::filesystem::equivalent(file.parent_path().empty() ? "." : file.parent_path(), to, none)) {
+      throw UsageError("--out: " + to.string() + " has the recordings that are replayed: choose another directory");
+    }
+  }
   Summary summary;
+  PictureOptions pictures = {replay.style, replay.language, false, [&interrupt] { return interrupt.asked(); }};
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   std::string descriptions;
-  std::map<std::uint32_t, int> positions;  // of the first character of each page, by its id
-  int next_position = 1, changed = 0;
+  std::map<std::pair<int, std::uint32_t>, int> positions;  // of the first character of each page, by number or id
+  int next_position = 1, changed = 0, damaged = 0;
   Progress progress;
   for (std::size_t i = 0; i < replay.files.size(); ++i) {
     const std::filesystem::path& file = replay.files[i];
     interrupt.check();
-    const StoredRecording stored = open_recording(file);
-    const Recording& recording = stored.recording;
-    const auto [position, is_new] = positions.try_emplace(recording.page, next_position);
-    if (is_new) next_position += static_cast<int>(recording.setup->page.characters.size());
-    PageInRun where = {position->second, 1, 0};
-    for (std::size_t before = 0; before < i; ++before) {  // the same page in the same mode, again
-      const auto& each = list[before];
-      if (each["page"] == recording.page && each["mode"] == to_string(recording.setup->mode)) ++where.repetition;
+    StoredRecording stored;
+    try {
+      stored = open_recording(file);
+    } catch (const FormatError& error) {
+      if (replay.files.size() == 1) throw;
+      ++damaged;
+      spdlog::error("{}", error.what());
+      continue;
     }
+    if (!to.empty() && !out) {  // now that something was read
+      out.emplace(to, replay_file, replay.out.force);
+      pictures.has_plots = can_plot(summary.warnings);
+    }
+    const Recording& recording = stored.recording;
+    const PlaceInRun place = place_in_run(file);
+    const std::pair<int, std::uint32_t> page = {place.page, place.page > 0 ? 0 : recording.page};
+    const auto [position, is_new] = positions.try_emplace(page, next_position);
+    if (is_new) next_position += static_cast<int>(recording.setup->page.characters.size());
+    PageInRun where = {position->second, std::max(place.repetition, 1), {}};
     summary.repetitions = std::max(summary.repetitions, where.repetition);
     descriptions += description(file, stored) + "\n";
     list.push_back(json_of(file, stored));
-    list.back()["page"] = recording.page;
     changed += stored.is_complete && !stored.has_same_forces;
     std::vector<Result> results = results_of(recording, where, replay.tolerances);
     if (out) {
       if (replay.ticks) out->write(stem_of(file) + "-ticks.csv", ticks_table(recording));
-      if (where.repetition == 1) draw_page(recording, where, pictures, *out);
+      if (where.repetition == 1) draw_page(recording, where, pictures, *out, summary.warnings);
     }
     summary.results.insert(summary.results.end(), std::make_move_iterator(results.begin()),
                            std::make_move_iterator(results.end()));
@@ -104,9 +121,10 @@ void replay_recordings(const RecordingReplay& replay) {
   fmt::print(output(), "{}", replay.json ? json_text(all)
                                          : descriptions + "\n" + table(summary, replay.language) +
                                                remarks(summary, replay.language));
+  if (damaged > 0) throw Error(fmt::format("{} could not be read", counted(static_cast<std::size_t>(damaged), "recording")));
   if (changed > 0) {
     throw Error(fmt::format("the forces of {} are not those of the session: another version of the program wrote it, "
-                            "or the file was changed", counted(static_cast<std::size_t>(changed), "recording")));
+                            "ticks are missing, or the file was changed", counted(static_cast<std::size_t>(changed), "recording")));
   }
 }
 

@@ -19,8 +19,8 @@ namespace calligraphy::tools {
 /// Keeps the words of the command line for run_facts().
 void remember_command(std::span<const char* const> words);
 
-/// Version, commit of the source, command line and present time. The commit is that of when CMake last configured the
-/// build, which it does when another is checked out: "unknown" outside a checkout; with "-dirty" if files differed.
+/// Version, commit of the source, command line and present time. The commit is that of when the program was
+/// built: "unknown" outside a checkout; with "-dirty" if what it was built from differed.
 nlohmann::ordered_json run_facts();
 
 /// The device with all its capabilities; null: no limit.

@@ -1,27 +1,33 @@
-# Sets CALLIGRAPHY_SOURCE_COMMIT to the commit of the source, with -dirty if files that git tracks differ, and to
-# "unknown" unless the source is a git checkout of its own. CMake runs again when another commit is checked out.
-set(CALLIGRAPHY_SOURCE_COMMIT unknown)
+# Writes HEADER with the commit of the source, with -dirty if what is built from it differs, and "unknown" unless SOURCE is
+# a git checkout of its own. Only a change is written, so that nothing is compiled anew without one.
+# usage: cmake -DSOURCE=... -DHEADER=... -P source_commit.cmake
+set(commit unknown)
 find_package(Git QUIET)
-if(NOT GIT_FOUND)
-  return()
-endif()
-foreach(asked "top:rev-parse;--show-toplevel" "commit:describe;--always;--dirty;--abbrev=40;--exclude=*"
-              "log:rev-parse;--git-path;logs/HEAD")
-  string(REGEX REPLACE ":.*" "" answer "${asked}")
-  string(REGEX REPLACE "^[a-z]*:" "" asked "${asked}")
-  execute_process(COMMAND ${GIT_EXECUTABLE} ${asked} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE ${answer}
-                  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failure)
-  if(failure)
-    return()
+function(ask answer)
+  set(${answer} "" PARENT_SCOPE)
+  if(GIT_FOUND)
+    execute_process(COMMAND ${GIT_EXECUTABLE} ${ARGN} WORKING_DIRECTORY ${SOURCE} OUTPUT_VARIABLE said
+                    OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+    set(${answer} "${said}" PARENT_SCOPE)
   endif()
-endforeach()
-file(REAL_PATH "${PROJECT_SOURCE_DIR}" source)
-file(REAL_PATH "${top}" top)
-if(NOT top STREQUAL source)  # a copy within the checkout of something else
-  return()
+endfunction()
+ask(top rev-parse --show-toplevel)
+file(REAL_PATH "${SOURCE}" source)
+if(top)
+  file(REAL_PATH "${top}" top)
 endif()
-set(CALLIGRAPHY_SOURCE_COMMIT ${commit})
-get_filename_component(log "${log}" ABSOLUTE BASE_DIR ${PROJECT_SOURCE_DIR})
-if(EXISTS "${log}")
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${log}")
+if(top STREQUAL source)  # otherwise a copy within the checkout of something else
+  ask(commit rev-parse HEAD)
+  ask(changed status --porcelain -- CMakeLists.txt cmake data include src tools)
+  if(changed)
+    string(APPEND commit -dirty)
+  endif()
+endif()
+set(text "#define CALLIGRAPHY_SOURCE_COMMIT \"${commit}\"\n")
+set(before "")
+if(EXISTS ${HEADER})
+  file(READ ${HEADER} before)
+endif()
+if(NOT text STREQUAL before)
+  file(WRITE ${HEADER} "${text}")
 endif()

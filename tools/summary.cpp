@@ -77,7 +77,7 @@ std::string reduction(const std::string& what, const char* unit, const std::vect
   std::vector<DrawnValue> reduced;
   for (const Pair& pair : both) {
     vision += quantity(*pair.vision) / static_cast<double>(both.size());
-    reduced.push_back({quantity(*pair.vision) - quantity(*pair.force), pair.vision->seed});
+    reduced.push_back({quantity(*pair.vision) - quantity(*pair.force), pair.vision->seed.value_or(0)});
   }
   const MeanInterval interval = mean_interval(reduced);
   const std::string relative = vision > 0.0 ? fmt::format(" ({:.1f} %)", 100.0 * interval.mean / vision) : "";
@@ -242,7 +242,7 @@ nlohmann::ordered_json json(const Summary& summary) {
                     {"position", result.position},
                     {"mode", to_string(result.mode)},
                     {"repetition", result.repetition},
-                    {"seed", result.seed},
+                    {"seed", result.seed ? Json(*result.seed) : Json()},
                     {"writing_time_s", score.time},
                     {"rms_error_mm", score.rms_error * millimetres},  // null: nothing was written
                     {"max_error_mm", score.max_error * millimetres},
@@ -283,7 +283,7 @@ std::string reductions(const std::vector<Result>& results, const Language& langu
   // An aborted character has no meaningful error or time.
   std::erase_if(both, [](const Pair& pair) { return !is_complete(*pair.vision) || !is_complete(*pair.force); });
   std::set<std::uint64_t> runs;
-  for (const Pair& pair : both) runs.insert(pair.vision->seed);
+  for (const Pair& pair : both) runs.insert(pair.vision->seed.value_or(0));
   const auto of_pairs = [&language](std::size_t count, std::string_view key) {
     return language.text_for(static_cast<long long>(count), key, {{"pairs", std::to_string(count)}}) + "\n";
   };

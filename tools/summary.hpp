@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,10 @@ struct Result {
   int position = 0;  ///< in the text, from 1
   FeedbackMode mode = FeedbackMode::force;
   int repetition = 1;  ///< from 1
-  std::uint64_t seed = 0;
+  std::optional<std::uint64_t> seed = {};  ///< of a simulated writer, if it is known
   CharacterScore score;
-  double tick_p50 = 0.0;   ///< [ns]
-  double tick_p999 = 0.0;  ///< [ns]
+  double tick_p50 = 0.0;   ///< NaN: not measured [ns]
+  double tick_p999 = 0.0;  ///< likewise [ns]
 };
 
 /// What a run has written.

@@ -166,6 +166,17 @@ class WriteRun {
     sheets_ = sheets(characters_of(set, text, options_.order), options_.page.layout(session_.device));
     OutputDirectory out(options_.out.directory, summary_file, options_.out.force);
     explain(out);
+    try {
+      finish(out);
+    } catch (const FileError&) {  // such as a full disk
+      spdlog::warn("the recordings in {} have what was written until then, and `calligraphy replay` reads them",
+                   options_.out.directory);
+      throw;
+    }
+  }
+
+ private:
+  void finish(OutputDirectory& out) {
     write_all(out);
     if (summary_.results.empty()) return tell_of_interruption("nothing was written");
     const auto order = [](const Result& a, const Result& b) {
@@ -174,16 +185,20 @@ class WriteRun {
     std::sort(summary_.results.begin(), summary_.results.end(), order);
     summary_.interrupted = pen_.interrupted();
     summary_.warnings = pen_.warnings();
+    summary_.warnings.insert(summary_.warnings.end(), ticks_warnings_.begin(), ticks_warnings_.end());
+    if (!options_.json) report();
     if (pen_.is_person()) out.write("servo.json", json(pen_.statistics()));
     out.write("strokes.csv", strokes_table(summary_.results));
     out.keep(json(summary_));
     draw(out);
+    summary_.interrupted = pen_.interrupted();
+    out.keep(json(summary_));
     if (!summary_.interrupted) out.finish();
-    report(out);
+    if (options_.json) fmt::print(output(), "{}", out.text());
+    warn_of_unfinished();
     if (pen_.interrupted()) tell_of_interruption("results so far are in " + options_.out.directory);
   }
 
- private:
   /// Space and Esc are how a session is stopped; Ctrl-C ends the program.
   void tell_of_interruption(const std::string& what_is_there) const {
     if (pen_.stopped_by_key()) return spdlog::info("stopped; {}", what_is_there);
@@ -268,35 +283,38 @@ class WriteRun {
       try {
         return pen_.write(sheet.page, session_);
       } catch (const Error&) {
-        if (is_kept && pen_.interrupted()) kept.discard();
+        if (!pen_.is_person() && pen_.interrupted()) kept.discard();
         throw;
       }
     }();
     if (is_kept) {
       kept.finish();
-      if (options_.ticks) out.write(name + "-ticks.csv", ticks_table(recording));
+      if (options_.ticks) {
+        try_to_write(name + "-ticks.csv", [&] { return ticks_table(recording); }, out, ticks_warnings_);
+      }
       if (repetition == 1) drawn_.push_back({kept.name(), where});
     }
     for (Result& result : results_of(recording, where)) summary_.results.push_back(std::move(result));
   }
 
   /// Pictures come last: what was written is safe by then. Their forces are made again from what is stored.
-  void draw(OutputDirectory& out) const {
-    PictureOptions options = {options_.style, options_.language, !drawn_.empty() && can_plot()};
+  void draw(OutputDirectory& out) {
+    const PictureOptions options = {options_.style, options_.language, !drawn_.empty() && can_plot(summary_.warnings),
+                                    [this] { return pen_.interrupted(); }};
     for (const auto& [name, where] : drawn_) {
-      draw_page(open_recording(out.reserve(name)).recording, where, options, out);
+      draw_page(open_recording(out.reserve(name)).recording, where, options, out, summary_.warnings);
     }
   }
 
-  void report(const OutputDirectory& out) const {
-    if (options_.json) {
-      fmt::print(output(), "{}", out.text());
-    } else {
-      const Language& language = options_.language;
-      fmt::print(output(), "{}{}{}", table(summary_, language), reductions(summary_.results, language),
-                 remarks(summary_, language));
-      for (const ServoStatistics& statistics : pen_.statistics()) fmt::print(output(), "{}", lines(statistics));
-    }
+  void report() const {
+    const Language& language = options_.language;
+    fmt::print(output(), "{}{}{}", table(summary_, language), reductions(summary_.results, language),
+               remarks(summary_, language));
+    for (const ServoStatistics& statistics : pen_.statistics()) fmt::print(output(), "{}", lines(statistics));
+    std::fflush(output());  // pictures take a while
+  }
+
+  void warn_of_unfinished() const {
     const auto given_up = [](const Result& r) { return r.score.strokes_completed < r.score.stroke_count; };
     const std::vector<Result>& results = summary_.results;
     const auto unfinished = std::count_if(results.begin(), results.end(), given_up);
@@ -310,6 +328,7 @@ class WriteRun {
   std::vector<FeedbackMode> modes_;
   std::vector<Sheet> sheets_;
   Summary summary_;
+  std::vector<std::string> ticks_warnings_;
   std::vector<std::pair<std::string, PageInRun>> drawn_;  ///< recordings of which pictures are made
 };
 

@@ -51,6 +51,7 @@
 #include <calligraphy/practice/mean_interval.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/recording.hpp>
+#include <calligraphy/practice/recording_file.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 #include <calligraphy/practice/writer.hpp>

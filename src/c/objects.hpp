@@ -95,6 +95,7 @@ struct MatchObject {
 struct TracesObject {
   std::vector<PenTrace> traces;
   std::vector<PenStroke> PenTrace::*begun = nullptr;  ///< which of the last trace's lists was added to last, if any
+  double last_time = 0.0;  ///< of the last sample of the last trace [s]
   std::string text;
 };
 

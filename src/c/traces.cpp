@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "base/stylus_fields.hpp"
+#include "judge/pens/sample_fault.hpp"
 #include "conversions.hpp"
 #include "objects.hpp"
 #include "structs.hpp"
@@ -13,6 +15,17 @@ namespace {
 std::vector<PenStroke> PenTrace::*list_of(std::int32_t place) {
   return enumeration("place", place, CALLIGRAPHY_PEN_IN_AIR) == CALLIGRAPHY_PEN_DOWN ? &PenTrace::strokes
                                                                                      : &PenTrace::air;
+}
+
+/// Of the last sample of a trace [s].
+double last_time(const PenTrace& trace) {
+  double last = 0.0;
+  for (const auto* strokes : {&trace.strokes, &trace.air}) {
+    for (const PenStroke& stroke : *strokes) {
+      if (!stroke.empty()) last = std::max(last, stroke.back().time);
+    }
+  }
+  return last;
 }
 
 }  // namespace
@@ -35,6 +48,7 @@ calligraphy_status calligraphy_traces_from_memory(const void* bytes, size_t size
     if (!bytes) throw_null("bytes");
     auto made = std::make_shared<TracesObject>();
     made->traces = parse_pen_traces({static_cast<const char*>(bytes), size}, name ? name : "memory");
+    if (!made->traces.empty()) made->last_time = last_time(made->traces.back());
     hand_out(traces, std::move(made));
   });
 }
@@ -48,6 +62,7 @@ calligraphy_status calligraphy_traces_begin(calligraphy_traces* traces, uint32_t
     set_if_given(trace.em, em, "em", "1");
     into.traces.push_back(std::move(trace));
     into.begun = nullptr;
+    into.last_time = 0.0;
   });
 }
 
@@ -75,6 +90,9 @@ calligraphy_status calligraphy_traces_add(calligraphy_traces* traces, double x, 
     TimedPoint point{{x, y}, time, {}, buttons};
     if (const calligraphy_status status = read_stylus(stylus, point.stylus)) throw_refused(status);
     if (!into.begun) throw Refusal(CALLIGRAPHY_INVALID_VALUE, "no pen-down and no time in the air was begun");
+    const std::string fault = sample_fault(point, into.last_time);
+    if (!fault.empty()) throw Refusal(CALLIGRAPHY_INVALID_VALUE, "the sample " + fault);
+    into.last_time = point.time;
     (into.traces.back().*into.begun).back().push_back(point);
   });
 }

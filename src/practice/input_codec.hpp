@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/devices/velocity_estimator.hpp>
 #include <calligraphy/practice/recording.hpp>
@@ -28,6 +29,7 @@ class ExpectedInput {
   const DeviceState& state() const noexcept { return state_; }
   /// The velocity that the device would have estimated at this position.
   const Eigen::Vector3d& velocity_at(const Eigen::Vector3d& position) noexcept {
+    const detail::FlushDenormals as_in_a_session;
     return velocity_.update(position, period_);
   }
   /// The steps of the encoder between two coordinates [m]; NaN if moved() would not lead there to the last bit.

@@ -19,7 +19,7 @@ namespace {
 constexpr std::chrono::milliseconds update_interval(20);
 
 /// Time for which the calling thread can be away before ticks are lost [s].
-constexpr double max_absence = 2.0;
+constexpr double max_absence = 10.0;
 
 /// Minimum timeout of the servo loop, which matters at low rates [ticks].
 constexpr double min_timeout = 3.0;

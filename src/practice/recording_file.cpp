@@ -6,6 +6,7 @@
 #include <istream>
 #include <limits>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -26,7 +27,8 @@ namespace calligraphy {
 namespace {
 
 constexpr std::string_view first_line = "calligraphy recording 1", ticks_line = "ticks", end_word = "end";
-constexpr std::size_t max_bytes = 1 << 30;         ///< hours at 1 kHz
+constexpr std::size_t max_bytes = 1 << 30;         ///< of the text
+constexpr std::size_t max_ticks = 4'000'000;       ///< more than an hour at 1 kHz, in 2 GB of memory
 constexpr std::size_t max_line_bytes = 1 << 16;    ///< of a character with many strokes
 constexpr std::size_t max_name_bytes = 1000;       ///< the rest of a name is not written
 constexpr std::size_t max_characters = 10000;      ///< on a page
@@ -98,6 +100,9 @@ std::string head_of(const Recording& recording) {
     std::ostringstream out;
     write_characters(out, {{}, {placed.character}});
     const std::string lines = out.str();
+    if (std::count(lines.begin(), lines.end(), '\n') > static_cast<std::ptrdiff_t>(max_character_lines)) {
+      throw ValueError("recording: a character takes more than " + std::to_string(max_character_lines) + " lines");
+    }
     add("character", {placed.placement.origin.x(), placed.placement.origin.y(), placed.placement.em,
                       static_cast<double>(std::count(lines.begin(), lines.end(), '\n'))});
     text.append("\n").append(lines, 0, lines.size() - 1);
@@ -119,6 +124,14 @@ class RecordingParser : private LineReader {
     setup().renderer.guidance.force = GuidanceOptions().force;
     while (next_whole() && line() != ticks_line) read_head();
     if (line() != ticks_line) fail("expected the ticks, found the end of the file");
+    for (const char* const key : {"rate", "mode", "law", "paper", "mapping", "device name", "device model",
+                                  "device simulated", "device sensed", "device driven", "device velocity",
+                                  "device sample_delay", "device workspace"}) {
+      if (seen_.count(key) == 0) fail(std::string("there is no statement '") + key + "'");
+    }
+    for (const auto& [name, member] : device_numbers) {
+      if (seen_.count("device " + std::string(name)) == 0) fail("there is no statement 'device " + std::string(name) + "'");
+    }
     stored_.recording.page = page_id(setup().page);
     const std::uint64_t checksum = read_ticks();
     make_ticks();
@@ -134,17 +147,19 @@ class RecordingParser : private LineReader {
 
   void read_head() {
     const std::string_view key = word();
+    if (key != "device" && key != "option" && key != "character") see(key);
     if (key == "rate") {
       stored_.recording.rate = number();
       if (!(std::isfinite(stored_.recording.rate) && stored_.recording.rate > 0.0)) {
         fail("the rate is not a finite number above 0");
       }
     } else if (key == "mode") {
-      setup().mode = word() == to_string(FeedbackMode::vision) ? FeedbackMode::vision : FeedbackMode::force;
+      const bool is_vision = is_second(to_string(FeedbackMode::force), to_string(FeedbackMode::vision));
+      setup().mode = is_vision ? FeedbackMode::vision : FeedbackMode::force;
     } else if (key == "law") {
       stored_.recording.law = rest();
     } else if (key == "forces") {
-      setup().has_own_law = rest() == "stored";
+      setup().has_own_law = is_second("made", "stored");
     } else if (key == "paper") {
       setup().page.width = number();
       setup().page.height = number();
@@ -156,6 +171,7 @@ class RecordingParser : private LineReader {
       read_device();
     } else if (key == "option") {
       const std::string name(word());
+      see("option " + name);
       try {
         set_option(setup().renderer, name, word());
       } catch (const ValueError& error) {
@@ -172,22 +188,23 @@ class RecordingParser : private LineReader {
   void read_device() {
     Capabilities& device = setup().device;
     const std::string_view key = word();
+    see("device " + std::string(key));
     if (key == "name") {
       device.name = rest();
     } else if (key == "model") {
       device.model = rest();
     } else if (key == "simulated") {
-      device.simulated = word() == "1";
+      device.simulated = is_second("0", "1");
     } else if (key == "sensed" || key == "driven") {
       DeviceAxes& axes = key == "sensed" ? device.sensed : device.driven;
       const std::string_view bits = word();
-      if (bits.size() != 4) fail("expected four bits for the axes, found " + in_quotes(bits));
+      if (bits.size() != 4 || bits.find_first_not_of("01") != bits.npos) fail("expected four bits for the axes, found " + in_quotes(bits));
       axes = {bits[0] == '1', bits[1] == '1', bits[2] == '1', bits[3] == '1'};
     } else if (key == "velocity") {
-      const bool is_measured = word() == to_string(VelocitySource::measured);
+      const bool is_measured = is_second(to_string(VelocitySource::estimated), to_string(VelocitySource::measured));
       device.velocity = is_measured ? VelocitySource::measured : VelocitySource::estimated;
     } else if (key == "sample_delay") {
-      device.sample_delay = static_cast<int>(number(0.0, 1e5));
+      device.sample_delay = static_cast<int>(count(1e5));
     } else if (key == "workspace") {
       for (double& extent : device.workspace) extent = number();
     } else {
@@ -206,7 +223,7 @@ class RecordingParser : private LineReader {
     placement.origin.x() = number();
     placement.origin.y() = number();
     placement.em = number();
-    const auto lines = static_cast<std::size_t>(number(1.0, max_character_lines));
+    const auto lines = static_cast<std::size_t>(count(max_character_lines));
     if (!rest().empty()) fail("unexpected text at the end of the line");
     const int first = LineReader::number();
     std::string text;
@@ -227,6 +244,7 @@ class RecordingParser : private LineReader {
     while (next()) {
       if (!is_whole()) break;  // it was being written
       if (line().starts_with(end_word)) return read_end();
+      if (recording.inputs.size() >= max_ticks) fail("more than " + std::to_string(max_ticks) + " ticks");
       try {
         recording.inputs.push_back(decoder.decode(line()));
       } catch (const FormatError& error) {
@@ -238,7 +256,7 @@ class RecordingParser : private LineReader {
   }
 
   std::uint64_t read_end() {
-    word();
+    if (word() != end_word) fail("expected a tick or the end, found " + calligraphy::in_quotes(line()));
     const std::string_view count = word(), checksum = word();
     std::size_t ticks = 0;
     std::uint64_t forces = 0;
@@ -268,6 +286,26 @@ class RecordingParser : private LineReader {
     for (std::size_t i = 0; i < own_forces_.size(); ++i) recording.samples[i].force = own_forces_[i];
   }
 
+  /// Notes that a statement was there. @throws FormatError if it was before
+  void see(std::string_view statement) {
+    if (!seen_.emplace(statement).second) fail("a second statement '" + std::string(statement) + "'");
+  }
+
+  /// Whether the next word is the second of two.
+  bool is_second(std::string_view first, std::string_view second) {
+    const std::string_view text = word();
+    if (text != first && text != second) {
+      fail("expected '" + std::string(first) + "' or '" + std::string(second) + "', found " + in_quotes(text));
+    }
+    return text == second;
+  }
+
+  double count(double most) {
+    const double value = number(0.0, most);
+    if (std::trunc(value) != value) fail("expected an integer, found " + number_text(value));
+    return value;
+  }
+
   double number(double least = -std::numeric_limits<double>::infinity(),
                 double most = std::numeric_limits<double>::infinity()) {
     const std::string_view text = word();
@@ -279,6 +317,7 @@ class RecordingParser : private LineReader {
   }
 
   StoredRecording stored_;
+  std::set<std::string, std::less<>> seen_;  ///< statements
   std::vector<Eigen::Vector3d> own_forces_;
 };
 

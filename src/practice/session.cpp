@@ -1,6 +1,7 @@
 #include <calligraphy/practice/session.hpp>
 
 #include <algorithm>
+#include <exception>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/detail/flush_denormals.hpp>
@@ -25,6 +26,21 @@ Intention to_device(const Intention& page, const MotionMapping& mapping) {
 Eigen::Vector3d resting_point(const PracticePage& page) {
   return {0.5 * page.width, 0.5 * page.height, resting_height};
 }
+
+/// Hands over the last ticks of a session that ends by an exception.
+struct KeepOnThrow {
+  const SessionOptions& options;
+  const Recording& recording;
+  int exceptions = std::uncaught_exceptions();
+
+  ~KeepOnThrow() {
+    if (!options.keep || std::uncaught_exceptions() == exceptions) return;
+    try {
+      options.keep(recording);
+    } catch (...) {  // the first exception is on its way
+    }
+  }
+};
 
 void end(const SessionOptions& options, const Recording& recording) {
   if (options.keep) options.keep(recording);
@@ -71,6 +87,7 @@ Recording run_session(const PracticePage& page, const SessionOptions& options, c
   const double period = 1.0 / renderer.options().servo_rate;
   const double longest = options.character_timeout * static_cast<double>(page.characters.size());
   Recording recording = recording_for(page, renderer, options.renderer, capabilities, options.mode, options.law);
+  const KeepOnThrow keep_on_throw{options, recording};
   while (device.time() < longest) {
     const std::optional<Intention> next = motion(record_tick(page, device, session, options, recording), period);
     if (!next) break;

@@ -27,7 +27,7 @@ void require_valid(const PenTrace& trace) {
                          " s");
       }
       last = timed.time;
-      any = true;
+      any = any || !is_erasing(stroke);
     }
   }
   if (!any) throw ValueError("a trace without a point");
@@ -41,7 +41,7 @@ TraceHand::TraceHand(const PenTrace& trace, const PlacedCharacter& placed, const
   const BoxMap map = fit_box(pen_paths(trace), placed.character);
   double last_time = 0.0;
   for (const PenStroke& stroke : trace.strokes) {
-    if (stroke.empty()) continue;
+    if (stroke.empty() || is_erasing(stroke)) continue;
     const bool first = knots_.size() == 1;
     Eigen::Vector3d above = Eigen::Vector3d::Zero();
     above << placed.placement.to_page(map(stroke.front().point)), raised_height;

@@ -656,14 +656,16 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
       {"path", value, "the pen is in the air twice in a row",
        [&] {
          REQUIRE(calligraphy_traces_add(traces, 0.5, 0.5, 1.0, nullptr, -1) == CALLIGRAPHY_OK);
-         REQUIRE(calligraphy_traces_add(traces, 0.5, 0.5, 0.0, nullptr, -1) == CALLIGRAPHY_OK);
+         REQUIRE(calligraphy_traces_add(traces, 0.5, 0.5, 1.0, nullptr, -1) == CALLIGRAPHY_OK);
          return calligraphy_traces_begin_path(traces, CALLIGRAPHY_PEN_IN_AIR);
        }},
       {"samples", CALLIGRAPHY_TOO_SMALL, "capacity = 1, but the path has 2 samples",
        [&] { return read_path(0, CALLIGRAPHY_PEN_IN_AIR, 0); }},
       {"samples", value, "path = 0, must be an index below 0", [&] { return read_path(0, CALLIGRAPHY_PEN_DOWN, 0); }},
       {"samples", value, "place = -1", [&] { return read_path(0, -1, 0); }},
-      {"text", value, "the air before stroke 1 has a time of 0 s after 1 s",
+      {"sample", value, "the sample has a time of 0 s after 1 s",
+       [&] { return calligraphy_traces_add(traces, 0.5, 0.5, 0.0, nullptr, -1); }},
+      {"text", value, "stroke 1 has 0 points",
        [&] {
          REQUIRE(calligraphy_traces_begin_path(traces, CALLIGRAPHY_PEN_DOWN) == CALLIGRAPHY_OK);
          return calligraphy_traces_text(traces, nullptr, &text);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/judge/pen_path.hpp>
 #include <calligraphy/judge/pen_trace.hpp>
 
 #include "../catch.hpp"
@@ -107,6 +108,13 @@ TEST_CASE("what a pen senses besides its place comes back to the last bit", "[ju
   CHECK(traces[1].air.empty());
 }
 
+TEST_CASE("what the eraser did is no writing", "[judge]") {
+  const PenTrace trace = read(with_senses)[0];
+  CHECK(is_erasing(trace.strokes[0]));
+  CHECK_FALSE(is_erasing(trace.strokes[1]));
+  CHECK(pen_paths(trace) == std::vector<PenPath>{{Point(0.5, 0.92)}});
+}
+
 TEST_CASE("tilts in degrees, as browsers have them, become altitude and azimuth", "[judge]") {
   // W3C Pointer Events Level 3, sec. 10.3: azimuthAngle 0 is to the right, pi / 2 towards the user, who is below.
   const auto sensed = [](const std::string& tilts) {
@@ -195,7 +203,7 @@ TEST_CASE("an invalid pen trace is rejected naming the line and the value", "[ju
       {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\nC 一 4E00 made-up 1000 1\nS 1 0 0 0\n", "pens.txt:3:", "1 of 2 strokes"},
       {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\nS 1 0 0 4\n", "pens.txt:3:", "5 to 4"},
       {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\n", "pens.txt:3:", "1 of 2 strokes"},
-      {"V 3\n", "pens.txt:1:", "'V'"},
+      {"V 3\n", "pens.txt:1:", "unknown version 'V 3'"},
       {line("A 1 0 0 0"), "pens.txt:2:", "'A'"},
       {line("F pressure"), "pens.txt:2:", "'F'"},
       {"V 2\n" + line("F pressur"), "pens.txt:3:", "'pressur'"},

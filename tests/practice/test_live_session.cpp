@@ -217,7 +217,7 @@ TEST_CASE("ticks missing from the recording are counted") {
   const PracticePage page = page_of("十");
   HeldDevice device(page);
   LiveOptions options = watched(device);
-  constexpr std::uint64_t away = 4000;  // twice the capacity of the queue
+  constexpr std::uint64_t away = 20000;  // twice the capacity of the queue
   options.watch = [&](const LiveView&) {
     if (!device.running()) return true;
     while (device.ticks() < away) device.seen();

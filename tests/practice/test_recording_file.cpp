@@ -163,7 +163,7 @@ TEST_CASE("a recording can be stored while it is made", "[practice]") {
     if (!writer) writer.emplace(out, recording);
     writer->add(recording);
     sizes.push_back(recording.samples.size());
-    if (recording.samples.size() > 600) CHECK(read(out.str()).recording.samples.size() == recording.samples.size());
+    if (recording.samples.size() % 2048 == 0 && !sizes.empty()) CHECK(read(out.str()).recording.samples.size() == recording.samples.size());
   };
   const Recording recording = write_page(page, options);
   writer->finish();
@@ -182,6 +182,12 @@ TEST_CASE("a malformed file is an error that names the line and the value", "[pr
       {"\nrate ", "\nrates ", "unknown statement 'rates'"},
       {"\nrate 1000", "\nrate 0", "finite number above 0"},
       {"\nmapping 1", "\nmapping x", "'x'"},
+      {"\nmode force", "\nmode sideways", "'sideways'"},
+      {"\nmode force", "", "no statement 'mode'"},
+      {"\nmode force", "\nmode force\nmode vision", "a second statement 'mode'"},
+      {"\ndevice simulated 1", "\ndevice simulated yes", "'yes'"},
+      {"\ndevice driven 1110", "\ndevice driven 111x", "'111x'"},
+      {"\nend ", "\nendless ", "endless"},
       {"\nmapping 1", "\nmapping 2", "rotation"},
       {"\ndevice peak_force", "\ndevice peak", "'peak'"},
       {"\ndevice sample_delay 0", "\ndevice sample_delay -1", "'-1'"},

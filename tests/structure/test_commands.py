@@ -24,7 +24,7 @@ BUILDS = re.compile(r"^(\.\./\.\./|\./|build-tests/release/|build/)")
 #: What the documentation gives to cmake, beside targets and the project's own variables.
 CMAKE = {"-S", "-B", "-G", "--build", "--install", "--prefix", "--target", "-DCMAKE_BUILD_TYPE", "-DCMAKE_PREFIX_PATH"}
 #: First words of files, which are no commands.
-FILE_HEADERS = {"characters", "wire"}
+FILE_HEADERS = {"characters", "recording", "wire"}
 
 
 class Project:

@@ -13,6 +13,7 @@ import random
 import re
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import zlib
@@ -71,6 +72,7 @@ def main():
                 seconds, kept = kill_once(options.program, options.emulated, Path(directory), draw.uniform(2.0, 8.0))
             lost.append(seconds)
             ticks += kept
+            print(f"{len(lost)}: {kept} ticks kept, {seconds:.3f} s lost", file=sys.stderr)
         print(f"killed {len(lost)} times, with {ticks} ticks kept: the device had sent at most {max(lost):.3f} s more than "
               "was kept")
     if options.mutants > 0:

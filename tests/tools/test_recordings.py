@@ -41,6 +41,29 @@ class Recordings(ProgramTest):
                     self.assertGreater(len(tables[0]), 3)
                     self.assertEqual(tables[0], tables[1])
 
+    def test_pages_have_the_places_that_they_had_in_the_run(self):
+        """Also the tenth page, whose name sorts before that of the second, and pages with the same characters."""
+        self.run_program("write", "一" * 55, "--mode", "force", "--writer", "skilled", "--device", "omni", "--out", "out")
+        places = [[(row["position"], row["repetition"], row["rms_error_mm"]) for row in rows]
+                  for rows in (self.summary(), self.replayed("out")["results"])]
+        self.assertEqual(places[0], places[1])
+
+    def test_recordings_are_never_overwritten(self):
+        run = ["write", "一", "--out", "out", "--mode", "force"]
+        self.run_program(*run)
+        before = self.contents()
+        for arguments in (["out"], ["out/page-1-force-1.recording.gz"], ["./out/../out"]):
+            self.assert_refused(2, ["replay", *arguments, "--out", "out", "--force"],
+                                "--out: out has the recordings that are replayed")
+        self.assertEqual(self.contents(), before)
+        (self.directory / "out/summary.json").unlink()
+        for force in ([], ["--force"]):
+            self.assert_refused(1, [*run, *force],
+                                "out/page-1-force-1.recording.gz: is there, a recording of no run: choose another")
+        (self.directory / "out/page-1-force-1.recording.gz").write_bytes(b"")
+        self.assert_refused(1, ["replay", "out", "--out", "other"], "out: there is no recording in this directory")
+        self.assertFalse((self.directory / "other").exists())
+
     def test_forces_that_are_not_those_of_the_session_are_told(self):
         self.run_program("write", "一", "--out", "out", "--mode", "force")
         path = self.directory / "out/page-1-force-1.recording.gz"
@@ -51,7 +74,7 @@ class Recordings(ProgramTest):
         self.assertNotEqual(stiffer, text)
         (self.directory / "changed").write_bytes(stiffer)
         done = self.run_program("replay", "changed", code=1)
-        self.assertIn("; other forces than then\n", done.stdout)
+        self.assertIn("; other forces than in the session\n", done.stdout)
         self.assertIn("the forces of 1 recording are not those of the session", done.stderr)
 
     def test_ten_characters_take_two_megabytes_at_most_and_their_tables_count_time_from_the_first_tick(self):
@@ -97,7 +120,8 @@ class Recordings(ProgramTest):
         (self.directory / "gnuplot").chmod(0o755)
         done = self.run_program("write", "十", "--out", "out",
                                 environment={"PATH": f"{self.directory}:{os.environ['PATH']}"})
-        self.assertRegex(done.stderr, r"warning: 01-十-force-force\.svg is not drawn: .*broken")
+        self.assertRegex(done.stderr, r"warning: 01-十-force-force\.svg is missing: .*broken")
+        self.assertRegex(self.record()["warnings"][0], r"01-十-force-force\.svg is missing: .*broken")
         self.assertEqual({path.name for path in (self.directory / "out").iterdir()},
                          {"summary.json", "strokes.csv", "page-1-force-1.recording.gz", "page-1-vision-1.recording.gz",
                           "01-十-force.svg", "01-十-vision.svg"})

@@ -17,7 +17,7 @@ inline constexpr double tap_length = 0.02;
 /// Length of a polyline, in the unit of its points; 0 for fewer than two.
 double path_length(std::span<const Point> path) noexcept;
 
-/// The pen-downs of a trace, in the coordinates of the square that the person wrote in.
+/// The pen-downs of a trace, in the coordinates of the square that the person wrote in, except those of the eraser.
 std::vector<PenPath> pen_paths(const PenTrace& trace);
 
 /// Translates the em square and scales it along x and y, without rotation.

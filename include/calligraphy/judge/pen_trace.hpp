@@ -22,6 +22,9 @@ struct TimedPoint {
 
 using PenStroke = std::vector<TimedPoint>;  ///< one pen-down, at least one point
 
+/// Whether a pen-down is of the eraser (eraser_button), by its first sample: it writes nothing.
+bool is_erasing(const PenStroke& stroke) noexcept;
+
 /// The recorded pen of a person writing one character.
 struct PenTrace {
   char32_t character = 0;          ///< the character to be written

@@ -44,7 +44,7 @@ double path_length(std::span<const Point> path) noexcept {
 std::vector<PenPath> pen_paths(const PenTrace& trace) {
   std::vector<PenPath> paths;
   for (const PenStroke& stroke : trace.strokes) {
-    if (stroke.empty()) continue;
+    if (stroke.empty() || is_erasing(stroke)) continue;
     PenPath& path = paths.emplace_back();
     for (const TimedPoint& timed : stroke) path.push_back(timed.point);
   }

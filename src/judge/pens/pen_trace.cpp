@@ -20,6 +20,7 @@
 #include "base/line_reader.hpp"
 #include "base/require.hpp"
 #include "base/stylus_fields.hpp"
+#include "sample_fault.hpp"
 
 namespace calligraphy {
 namespace {
@@ -103,7 +104,8 @@ class TraceParser : private LineReader {
   std::vector<PenTrace> parse() {
     std::vector<PenTrace> traces;
     while (next_line()) {
-      if (number_of_statements_++ == 0 && line() == version_2) {
+      if (number_of_statements_++ == 0 && line().starts_with("V ")) {
+        if (line() != version_2) fail("unknown version " + in_quotes(line()) + ": expected '" + std::string(version_2) + "'");
         is_version_2_ = true;
         continue;
       }
@@ -355,16 +357,8 @@ void require_writable(const PenTrace& trace, std::size_t index) {
   const auto check = [&](const PenStroke& stroke, const std::string& place) {
     require(stroke.size() <= max_stroke_points, place + " has " + std::to_string(stroke.size()) + " points");
     for (const TimedPoint& point : stroke) {
-      require(std::abs(point.point.x()) <= farthest && std::abs(1.0 - point.point.y()) <= farthest,
-              place + " has a point at " + number_text(point.point.x()) + ", " + number_text(point.point.y()));
-      require(point.time >= last && point.time <= max_time,
-              place + " has a time of " + number_text(point.time) + " s after " + number_text(last) + " s");
-      for (const StylusField& field : stylus_fields) {
-        const double value = point.stylus.*field.member;
-        require(is_valid(field, value), place + " has a " + std::string(field.name) + " of " + number_text(value));
-      }
-      require(point.buttons >= -1 && point.buttons <= max_buttons,
-              place + " has the buttons " + std::to_string(point.buttons));
+      const std::string fault = sample_fault(point, last);
+      require(fault.empty(), place + " " + fault);
       last = point.time;
     }
   };
@@ -402,6 +396,34 @@ void append_notice(std::string& text, std::string_view notice) {
 }
 
 }  // namespace
+
+bool is_erasing(const PenStroke& stroke) noexcept {
+  return !stroke.empty() && stroke.front().buttons >= 0 &&
+         (static_cast<std::uint32_t>(stroke.front().buttons) & eraser_button) != 0;
+}
+
+std::string sample_fault(const TimedPoint& point, double last_time) {
+  const auto of_range = [](double value, double least, double most, const char* unit) {
+    return number_text(value) + unit + ": expected " + number_text(least) + " to " + number_text(most);
+  };
+  if (!(std::abs(point.point.x()) <= farthest && std::abs(1.0 - point.point.y()) <= farthest)) {
+    return "has a point at " + number_text(point.point.x()) + ", " + number_text(point.point.y()) +
+           " em: expected at most " + number_text(farthest) + " from the upper left corner of the square";
+  }
+  if (!(point.time >= last_time)) {
+    return "has a time of " + number_text(point.time) + " s after " + number_text(last_time) + " s";
+  }
+  if (!(point.time <= max_time)) return "has a time of " + of_range(point.time, 0.0, max_time, " s");
+  for (const StylusField& field : stylus_fields) {
+    const double value = point.stylus.*field.member;
+    if (is_valid(field, value)) continue;
+    return "has a " + std::string(field.name) + " of " + of_range(value, field.least, field.most, "");
+  }
+  if (point.buttons < -1 || point.buttons > max_buttons) {
+    return "has the buttons " + of_range(point.buttons, -1.0, max_buttons, "");
+  }
+  return {};
+}
 
 std::vector<PenTrace> read_pen_traces(std::istream& in, std::string_view name) {
   return TraceParser(bytes_of(in, name), name).parse();
