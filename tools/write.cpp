@@ -299,8 +299,9 @@ class WriteRun {
 
   /// Pictures come last: what was written is safe by then. Their forces are made again from what is stored.
   void draw(OutputDirectory& out) {
+    const bool was_stopped = pen_.interrupted();  // what was written until then is drawn
     const PictureOptions options = {options_.style, options_.language, !drawn_.empty() && can_plot(summary_.warnings),
-                                    [this] { return pen_.interrupted(); }};
+                                    [&] { return !was_stopped && pen_.interrupted(); }};
     for (const auto& [name, where] : drawn_) {
       draw_page(open_recording(out.reserve(name)).recording, where, options, out, summary_.warnings);
     }
