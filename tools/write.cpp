@@ -1,11 +1,9 @@
 // calligraphy write: writes a text in closed loop, with vision only and with vision and force.
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <tuple>
 #include <vector>

@@ -29,4 +29,15 @@ std::to_chars_result to_chars_fixed(char* begin, char* end, double value, int pl
 #endif
 }
 
+void append_rounded(std::string& text, double value, int places) {
+  char buffer[512];  // the longest number, and more
+  const char* end = to_chars_fixed(buffer, buffer + sizeof buffer, value, places).ptr;
+  if (places > 0) {
+    while (end[-1] == '0') --end;
+    if (end[-1] == '.') --end;
+  }
+  const std::string_view digits(buffer, static_cast<std::size_t>(end - buffer));
+  text += digits == "-0" ? "0" : digits;
+}
+
 }  // namespace calligraphy

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <concepts>
+#include <string>
 
 namespace calligraphy {
 
@@ -24,5 +25,8 @@ std::to_chars_result to_chars(char* begin, char* end, float value) noexcept;
 std::to_chars_result to_chars(char* begin, char* end, double value) noexcept;
 /// Writes the number with this many decimal places.
 std::to_chars_result to_chars_fixed(char* begin, char* end, double value, int places) noexcept;
+
+/// Appends a finite number rounded to at most this many decimal places: no zeros at their end, no sign of a zero.
+void append_rounded(std::string& text, double value, int places);
 
 }  // namespace calligraphy

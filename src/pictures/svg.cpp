@@ -12,12 +12,9 @@
 namespace calligraphy::svg {
 
 std::string number(double value) {
-  char buffer[512];
-  const auto [end, error] = to_chars_fixed(buffer, buffer + sizeof buffer, value, 3);
-  std::string text(buffer, end);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text == "-0" ? "0" : text;
+  std::string text;
+  append_rounded(text, value, 3);
+  return text;
 }
 
 std::string clean(std::string_view text) {

@@ -121,7 +121,6 @@ class RecordingParser : private LineReader {
     if (line() != first_line) {
       fail("expected '" + std::string(first_line) + "', found " + calligraphy::in_quotes(line()));
     }
-    setup().renderer.guidance.force = GuidanceOptions().force;
     while (next_whole() && line() != ticks_line) read_head();
     if (line() != ticks_line) fail("expected the ticks, found the end of the file");
     for (const char* const key : {"rate", "mode", "law", "paper", "mapping", "device name", "device model",

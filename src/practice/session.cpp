@@ -64,8 +64,6 @@ const HapticTick& record_tick(const PracticePage& page, HapticDevice& device, Se
 
 }  // namespace
 
-const char* to_string(FeedbackMode mode) noexcept { return mode == FeedbackMode::vision ? "vision" : "force"; }
-
 double share_written(const PracticePage& page, int character, int stroke) noexcept {
   const auto count = static_cast<double>(page.characters.size());
   if (character >= static_cast<int>(page.characters.size())) return 1.0;

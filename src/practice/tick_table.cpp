@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 #include <ostream>
 #include <string>
@@ -21,15 +20,7 @@ constexpr std::string_view pen_columns =
 /// Appends a comma and the number, rounded; nothing for one that is not finite.
 void append_cell(std::string& text, double value, int places) {
   text += ',';
-  if (!std::isfinite(value)) return;
-  const double unit = std::pow(10.0, places), rounded = std::round(value * unit) / unit;
-  char buffer[400];  // a double in full
-  char* end = to_chars_fixed(buffer, buffer + sizeof buffer, rounded == 0.0 ? 0.0 : rounded, places).ptr;
-  if (places > 0) {
-    while (end[-1] == '0') --end;
-    if (end[-1] == '.') --end;
-  }
-  text.append(buffer, end);
+  if (std::isfinite(value)) append_rounded(text, value, places);
 }
 
 }  // namespace

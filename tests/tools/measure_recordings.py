@@ -88,8 +88,8 @@ def mutate(program, count, draw):
         whole = (directory / "out/page-1-force-1.recording.gz").read_bytes()
         text = gzip.decompress(whole)
         plain = text[:text.index(b"\nticks\n") + 3000]
-        traces = ("V 2\nC 十 5341 made-up 1000 2 1\nF pressure altitude azimuth twist height buttons tip\n".replace(" tip", "")
-                  + "S 2 100 500 0 0.25 1.1 0.7 -2 0 1 900 480 330 0.5 1.1 0.7 -2 - 1\n"
+        traces = ("V 2\nC 十 5341 made-up 1000 2 1\nF pressure altitude azimuth twist height buttons\n"
+                  "S 2 100 500 0 0.25 1.1 0.7 -2 0 1 900 480 330 0.5 1.1 0.7 -2 - 1\n"
                   "A 1 500 300 600 0 1 1 1 0.01 0\nS 2 500 80 900 0.25 1 1 1 0 33 500 940 1400 - 1 1 1 0 1\n").encode()
         sources = [whole, plain, traces, gzip.compress(traces)]
         worst_time, worst_memory, outcomes = 0.0, 0, {}

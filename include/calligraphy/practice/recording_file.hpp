@@ -1,10 +1,7 @@
 // Recordings in files: what came in, exactly, and all that it takes to make the forces again (docs/recordings.md).
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <string_view>

@@ -177,7 +177,8 @@ DeviceState OpenHapticsDevice::Implementation::read() noexcept {
   }
   double position[3] = {};
   double velocity[3] = {};
-  double transform[16] = {};
+  double transform[16];
+  std::fill_n(transform, 16, unknown);  // of a runtime that does not fill it in
   int buttons = 0;
   hd().hdGetDoublev(current_position, position);
   hd().hdGetDoublev(current_velocity, velocity);

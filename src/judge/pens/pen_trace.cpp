@@ -35,6 +35,7 @@ constexpr double farthest = 10.0;                   // coordinate [em]
 constexpr double max_em = 1e9;                      // [file's units]
 constexpr double max_time = 86400.0;                // [s]
 constexpr double finest = 1e-6;                     // that is written [unit, ms]
+constexpr int decimal_places = 6;                   ///< the same, in decimal places
 
 constexpr double milliseconds = 1e3;
 constexpr double per_degree = std::numbers::pi / 180.0;
@@ -328,17 +329,6 @@ std::size_t times_in_air(const PenTrace& trace) {
   return static_cast<std::size_t>(std::count_if(trace.air.begin(), trace.air.end(), is_there));
 }
 
-void append_rounded(std::string& text, double value) {
-  char buffer[64];
-  const double rounded = std::round(value / finest) * finest;
-  char* end = to_chars_fixed(buffer, buffer + sizeof buffer, rounded, 6).ptr;
-  while (end[-1] == '0') --end;
-  if (end[-1] == '.') --end;
-  const std::string_view digits(buffer, static_cast<std::size_t>(end - buffer));
-  text += ' ';
-  text += digits == "-0" ? "0" : digits;
-}
-
 void require_writable(const PenTrace& trace, std::size_t index) {
   const auto require = [index](bool good, const std::string& what) {
     if (!good) throw ValueError("pen trace " + std::to_string(index + 1) + ": " + what);
@@ -374,9 +364,9 @@ void require_writable(const PenTrace& trace, std::size_t index) {
 void append_points(std::string& text, char kind, const PenStroke& stroke, double em, const PointFields& fields) {
   text.append(1, kind).append(" ").append(std::to_string(stroke.size()));
   for (const TimedPoint& point : stroke) {
-    append_rounded(text, point.point.x() * em);
-    append_rounded(text, (1.0 - point.point.y()) * em);
-    append_rounded(text, point.time * milliseconds);
+    for (const double value : {point.point.x() * em, (1.0 - point.point.y()) * em, point.time * milliseconds}) {
+      append_rounded(text += ' ', value, decimal_places);
+    }
     for (const PointFields::Field& field : fields.all) {
       const bool is_buttons = field.kind == PointFields::Kind::buttons;
       const double value = is_buttons ? static_cast<double>(point.buttons) : point.stylus.*field.member;
@@ -456,7 +446,7 @@ std::string pen_traces_text(const std::vector<PenTrace>& traces, std::string_vie
     const PointFields fields = fields_of(trace);
     text.append("C ").append(encode_utf8(trace.character)).append(" ").append(code_in_hex(trace.character));
     text.append(" ").append(trace.set);
-    append_rounded(text, trace.em);
+    append_rounded(text += ' ', trace.em, decimal_places);
     text.append(" ").append(std::to_string(trace.strokes.size()));
     const std::size_t in_air = times_in_air(trace);
     if (in_air > 0) text.append(" ").append(std::to_string(in_air));
