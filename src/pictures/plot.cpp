@@ -49,22 +49,24 @@ Signals signals_of(const Recording& recording, int character) {
   Signals signals{{}, {{"fx", {}}, {"fy", {}}, {"size", {}}, {"normal", {}}}, {}};
   bool writing = false;
   double end = 0.0;
+  const double first = recording.samples.empty() ? 0.0 : recording.samples.front().time;
   for (const RecordedSample& sample : recording.samples) {
+    const double time = sample.time - first;
     // The tick that finishes the last stroke may already belong to the next character.
     const bool here = sample.character == character;
     if (writing && !(here && sample.state == InteractionState::writing)) {
-      signals.bands.back().end = sample.time;
+      signals.bands.back().end = time;
       signals.bands.back().abandoned = has_event(sample.events, TickEvent::stroke_abandoned);
       writing = false;
     }
-    if (!here || !std::isfinite(sample.time)) continue;
+    if (!here || !std::isfinite(time)) continue;
     if (!writing && sample.state == InteractionState::writing) {
-      signals.bands.push_back({sample.time, sample.time, sample.stroke, false});
+      signals.bands.push_back({time, time, sample.stroke, false});
       writing = true;
     }
-    end = sample.time;
+    end = time;
     const double values[] = {sample.force.x(), sample.force.y(), sample.force.head<2>().norm(), sample.force.z()};
-    signals.time.push_back(sample.time);
+    signals.time.push_back(time);
     for (std::size_t i = 0; i < signals.curves.size(); ++i) signals.curves[i].values.push_back(values[i]);
   }
   if (writing) signals.bands.back().end = end;

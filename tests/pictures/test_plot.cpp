@@ -186,6 +186,15 @@ TEST_CASE("a plot shows bands for the writing state of the character that was as
   CHECK_FALSE(contains(script, "from first 5"));
 }
 
+TEST_CASE("time is since the first tick, whatever the clock of the device said then", "[practice]") {
+  const ShimDirectory directory;
+  directory.provide_gnuplot("cat > script; echo '<svg><title/></svg>'");
+  Recording late = recording();
+  for (RecordedSample& sample : late.samples) sample.time += 4096.0;
+  force_plot(late, 0, "title");
+  CHECK(contains(directory.content("script"), "set xrange [0:"));
+}
+
 TEST_CASE("a long recording is drawn with few points and every peak", "[practice]") {
   const ShimDirectory directory;
   directory.provide_gnuplot("cat > script; echo '<svg><title/></svg>'");
