@@ -90,32 +90,60 @@ ImportResult import_source(const std::string& source, const ImportOptions& asked
   }
 }
 
-std::u32string present(const std::u32string& text, const std::function<bool(char32_t)>& is_there,
+void ReadingNotes::tell(const TextCharacter& character, char32_t code) {
+  const std::string note = reading_note(character, code);
+  if (note.empty() || std::find(told_.begin(), told_.end(), note) != told_.end()) return;
+  told_.push_back(note);
+  spdlog::info("{}", note);
+}
+
+std::u32string each_once(const std::u32string& text) {
+  std::u32string codes;
+  for (const char32_t code : text) {
+    if (codes.find(code) == codes.npos) codes += code;
+  }
+  return codes;
+}
+
+std::u32string present(const std::vector<TextCharacter>& text, const std::function<bool(char32_t)>& is_there,
                        const std::string& place, const std::string& advice) {
   std::u32string found, skipped, missing;
-  for (const char32_t code : text) {
-    std::u32string& kind = is_there(code) ? found : is_punctuation(code) ? skipped : missing;
-    if (&kind == &found || kind.find(code) == kind.npos) kind += code;
+  ReadingNotes notes;
+  for (const TextCharacter& character : text) {
+    const char32_t code = is_there(character.written) ? character.written : character.meant;
+    if (is_there(code)) {
+      notes.tell(character, code);
+      found += code;
+    } else {
+      (is_punctuation(code) ? skipped : missing) += character.written;
+    }
   }
-  if (!missing.empty()) throw Error(fmt::format("not in {}: {}{}", place, labels(missing), advice));
-  if (found.empty() && !skipped.empty()) throw Error(fmt::format("not in {}: {}", place, labels(skipped)));
-  if (!skipped.empty()) spdlog::warn("skipped: {}", labels(skipped));
+  if (!missing.empty()) throw Error(fmt::format("not in {}: {}{}", place, labels(each_once(missing)), advice));
+  if (!skipped.empty() && found.empty()) throw Error(fmt::format("not in {}: {}", place, labels(each_once(skipped))));
+  if (!skipped.empty()) spdlog::warn("skipped: {}", labels(each_once(skipped)));
   return found;
 }
 
-void warn_of_missing(const std::u32string& only, const CharacterList& list, const std::string& source) {
+void tell_of_only(const std::string& only, const CharacterList& list, const std::string& source) {
   std::u32string missing;
-  for (const char32_t code : only) {
-    const auto is_it = [code](const Character& each) { return each.code == code; };
-    const bool found = std::any_of(list.characters.begin(), list.characters.end(), is_it);
-    if (!found && missing.find(code) == missing.npos) missing += code;
+  ReadingNotes notes;
+  for (const TextCharacter& character : characters_of(only)) {
+    const auto has = [&list](char32_t code) {
+      return std::any_of(list.characters.begin(), list.characters.end(), [code](const auto& each) { return each.code == code; });
+    };
+    const char32_t code = has(character.written) ? character.written : character.meant;
+    if (has(code)) {
+      notes.tell(character, code);
+    } else {
+      missing += character.written;
+    }
   }
-  if (!missing.empty()) spdlog::warn("not in {}: {}", source, labels(missing));
+  if (!missing.empty()) spdlog::warn("not in {}: {}", source, labels(each_once(missing)));
 }
 
-ChosenCharacters open_characters(const std::vector<std::string>& paths, const std::u32string& text,
+ChosenCharacters open_characters(const std::vector<std::string>& paths, const std::vector<TextCharacter>& text,
                                  const std::string& order) {
-  CharacterSet set = open_sources(paths, text);
+  CharacterSet set = open_sources(paths, codes_of(text));
   const auto is_there = [&set](char32_t code) { return set.find(code).has_value(); };
   std::u32string found = present(text, is_there, place_of(paths), advice(paths));
   ChosenCharacters chosen{std::move(set), std::move(found)};

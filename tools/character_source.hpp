@@ -8,6 +8,7 @@
 
 #include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_text.hpp>
 
 namespace CLI {
 class App;
@@ -23,14 +24,27 @@ CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32s
 /// As import_characters(). @throws UsageError naming an option that does not apply to this kind of source
 ImportResult import_source(const std::string& source, const ImportOptions& asked);
 
-/// The characters of `text` that are there. Punctuation that is not is skipped, and a warning says so.
+/// The characters of `text` that are there, as written or as meant, which is told. Punctuation that is not there is
+/// skipped, and a warning says so.
 /// @throws Error naming all other characters that are not in `place`, and then `advice`, or the punctuation if there is
 /// nothing else
-std::u32string present(const std::u32string& text, const std::function<bool(char32_t)>& is_there,
+std::u32string present(const std::vector<TextCharacter>& text, const std::function<bool(char32_t)>& is_there,
                        const std::string& place, const std::string& advice = {});
 
-/// Warns of characters that were asked for by --only and are not in the list.
-void warn_of_missing(const std::u32string& only, const CharacterList& list, const std::string& source);
+/// Tells each reading_note() once.
+class ReadingNotes {
+ public:
+  void tell(const TextCharacter& character, char32_t code);
+
+ private:
+  std::vector<std::string> told_;
+};
+
+/// Each code point once, in order.
+std::u32string each_once(const std::u32string& text);
+
+/// Tells how the characters that were asked for by --only were read, and warns of those that are not in the list.
+void tell_of_only(const std::string& only, const CharacterList& list, const std::string& source);
 
 /// Characters, and the set that has them.
 struct ChosenCharacters {
@@ -40,7 +54,7 @@ struct ChosenCharacters {
 
 /// As open_sources(), and what of `text` is present() in the set, in the stroke order `order`, or in any order if that is
 /// empty. @throws Error naming the characters or the file
-ChosenCharacters open_characters(const std::vector<std::string>& paths, const std::u32string& text,
+ChosenCharacters open_characters(const std::vector<std::string>& paths, const std::vector<TextCharacter>& text,
                                  const std::string& order = {});
 
 /// The characters of `text` in the stroke order `order`; if that is empty, in the standard or else the first order.

@@ -80,7 +80,7 @@ ImportResult imported(const ImportArguments& options, const Interrupt& interrupt
   asked.alternates = options.alternates;
   asked.ideographs_only = !options.all;
   asked.ink = ink_details.at(options.ink);
-  if (options.only) asked.only = characters_of(*options.only);
+  if (options.only) asked.only = codes_of(characters_of(*options.only));
   asked.date = options.date;
   asked.threads = options.threads;
   asked.report = options.report;
@@ -115,7 +115,7 @@ void run(const ImportArguments& options) {
   check_output(options.out);
   const Interrupt interrupt;
   const ImportResult import = imported(options, interrupt);
-  if (options.only) warn_of_missing(characters_of(*options.only), import.list, options.source);
+  if (options.only) tell_of_only(*options.only, import.list, options.source);
   const std::string bytes = encoded(import.list, options);
   interrupt.check();
   write_output(options.out, bytes);

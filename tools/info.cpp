@@ -40,7 +40,7 @@ struct InfoArguments {
 /// Interpreted arguments.
 struct Request {
   std::vector<std::string> paths;
-  std::u32string text;         ///< each character once; empty: the set as a whole
+  std::vector<TextCharacter> text;  ///< empty: the set as a whole
   bool may_mean_file = false;  ///< the text is the only argument, and no file has this name
 };
 
@@ -183,14 +183,6 @@ Json json_of(const Character& character, const Provenance& provenance, const std
           {"attribution", provenance.attribution}};
 }
 
-std::u32string each_once(const std::string& text) {
-  std::u32string codes;
-  for (const char32_t code : characters_of(text)) {
-    if (codes.find(code) == std::u32string::npos) codes += code;
-  }
-  return codes;
-}
-
 bool has_file_name_characters(const std::string& word) { return word.find_first_of("./") != std::string::npos; }
 
 /// With two arguments the first is a FILE, or the second does not belong there. @throws FileError, UsageError
@@ -213,7 +205,7 @@ Request request_of(const InfoArguments& options) {
   if (has_file && !options.characters.empty()) throw UsageError("--characters: cannot be combined with FILE");
   if (has_file) request.paths.insert(request.paths.begin(), *options.first);
   const std::optional<std::string>& text = has_file ? options.second : options.first;
-  if (text) request.text = each_once(*text);
+  if (text) request.text = characters_of(*text);
   request.may_mean_file = text && !has_file;
   if (request.paths.empty() && request.text.empty()) throw UsageError("FILE or TEXT is required");
   if (!options.order.empty() && request.text.empty()) throw UsageError("--order: applies only to TEXT");
@@ -226,7 +218,9 @@ ChosenCharacters chosen(const Request& request, const InfoArguments& options) {
     throw FileError(*options.first + ": no such file");
   }
   try {
-    return open_characters(request.paths, request.text);
+    ChosenCharacters chosen = open_characters(request.paths, request.text);
+    chosen.text = each_once(chosen.text);
+    return chosen;
   } catch (const FileError&) {
     throw;
   } catch (const Error& error) {
@@ -240,7 +234,7 @@ void run_paper_example(const InfoArguments& options) {
   if (options.second) throw UsageError("--paper-example: cannot be combined with FILE");
   if (!options.order.empty()) throw UsageError("--paper-example: cannot be combined with --order");
   const Character& example = paper_example();
-  if (options.first && characters_of(*options.first) != std::u32string(1, example.code)) {
+  if (options.first && codes_of(characters_of(*options.first)) != std::u32string(1, example.code)) {
     throw UsageError(
         fmt::format("--paper-example: the example is {}, not \"{}\"", character_label(example.code), *options.first));
   }

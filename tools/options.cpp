@@ -22,11 +22,6 @@ bool parse(const std::string& word, Number& value) {
   return failure == std::errc() && rest == end;
 }
 
-bool is_white_space(char32_t code) {
-  constexpr std::u32string_view spaces = U"\t\n\v\f\r \u0085\u00A0\u2028\u2029\u202F\u205F\u3000\uFEFF";
-  return spaces.find(code) != std::u32string_view::npos || (code >= U'\u2000' && code <= U'\u200B');
-}
-
 }  // namespace
 
 CLI::Validator number(double least, double most) {
@@ -47,15 +42,24 @@ CLI::Validator integer(unsigned long long least, unsigned long long most) {
   return CLI::Validator(check, "INTEGER");
 }
 
-std::u32string characters_of(const std::string& text) {
-  std::u32string codes;
+std::vector<TextCharacter> characters_of(const std::string& text) {
+  std::vector<TextCharacter> characters;
   try {
-    codes = decode_utf8(text);
+    characters = text_characters(text);
   } catch (const FormatError& error) {
     throw UsageError(std::string("TEXT: ") + error.what());
   }
-  std::erase_if(codes, is_white_space);
-  if (codes.empty()) throw UsageError(fmt::format("TEXT: \"{}\" contains no characters", text));
+  if (characters.empty()) throw UsageError(fmt::format("TEXT: \"{}\" contains no characters", text));
+  return characters;
+}
+
+std::u32string codes_of(const std::vector<TextCharacter>& text) {
+  std::u32string codes;
+  for (const TextCharacter& character : text) {
+    for (const char32_t code : {character.written, character.meant}) {
+      if (codes.find(code) == codes.npos) codes += code;
+    }
+  }
   return codes;
 }
 

@@ -8,6 +8,7 @@
 
 #include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/judge/language.hpp>
+#include <calligraphy/model/character_text.hpp>
 #include <calligraphy/pictures/stroke_style.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
@@ -20,8 +21,11 @@ CLI::Validator number(double least, double most);
 /// Accepts an argument that is entirely an integer in [least, most].
 CLI::Validator integer(unsigned long long least, unsigned long long most);
 
-/// The characters of a text without its white space. @throws UsageError if it is not UTF-8 or nothing remains
-std::u32string characters_of(const std::string& text);
+/// As text_characters(). @throws UsageError if the text is not UTF-8 or has no characters
+std::vector<TextCharacter> characters_of(const std::string& text);
+
+/// The code points that they may have in a source: as written, and as meant.
+std::u32string codes_of(const std::vector<TextCharacter>& text);
 
 /// "北 (U+5317)", or only the code if the character is not printable.
 std::string character_label(char32_t code);

@@ -59,6 +59,10 @@ struct Chosen {
   PenTrace trace;
 };
 
+TextCharacter character_in(const PenTrace& trace) {
+  return {trace.character, unified(trace.character), trace.selector};
+}
+
 std::vector<Chosen> chosen_traces(const ReplayArguments& options) {
   std::vector<Chosen> chosen;
   int position = 0;
@@ -68,20 +72,20 @@ std::vector<Chosen> chosen_traces(const ReplayArguments& options) {
   if (options.only) {
     const auto is_there = [&chosen](char32_t code) {
       return std::any_of(chosen.begin(), chosen.end(),
-                         [code](const Chosen& each) { return each.trace.character == code; });
+                         [code](const Chosen& each) { return codes_of({character_in(each.trace)}).find(code) != std::u32string::npos; });
     };
     const std::u32string only = present(characters_of(*options.only), is_there, options.traces);
-    std::erase_if(chosen, [&only](const Chosen& each) { return only.find(each.trace.character) == only.npos; });
+    std::erase_if(chosen, [&only](const Chosen& each) {
+      return codes_of({character_in(each.trace)}).find_first_of(only) == only.npos;
+    });
   }
   if (chosen.empty()) throw Error(options.traces + " contains no traces");
   return chosen;
 }
 
-std::u32string text_of(const std::vector<Chosen>& traces) {
-  std::u32string text;
-  for (const Chosen& each : traces) {
-    if (text.find(each.trace.character) == std::u32string::npos) text += each.trace.character;
-  }
+std::vector<TextCharacter> text_of(const std::vector<Chosen>& traces) {
+  std::vector<TextCharacter> text;
+  for (const Chosen& each : traces) text.push_back(character_in(each.trace));
   return text;
 }
 
@@ -104,10 +108,19 @@ class ReplayRun {
   }
 
   void replay() {
-    const std::vector<Chosen> traces = chosen_traces(options_);
-    const std::u32string text = text_of(traces);
-    const CharacterSet set =
-        options_.only ? open_characters(options_.characters, text).set : open_sources(options_.characters, text);
+    std::vector<Chosen> traces = chosen_traces(options_);
+    const std::vector<TextCharacter> written = text_of(traces);
+    const CharacterSet set = options_.only ? open_characters(options_.characters, written).set
+                                           : open_sources(options_.characters, codes_of(written));
+    ReadingNotes notes;
+    std::u32string text;
+    for (Chosen& each : traces) {
+      const TextCharacter character = character_in(each.trace);
+      each.trace.character = character.code_in(set);
+      if (!options_.only) notes.tell(character, each.trace.character);  // told when they were looked up
+      text += each.trace.character;
+    }
+    text = each_once(text);
     for (const char32_t code : text) {
       if (accepted_forms(set, code).empty()) report_.without_template += code;
     }

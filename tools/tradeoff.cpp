@@ -47,9 +47,6 @@ struct TradeoffArguments {
 
 TradeoffReport asked_for(const TradeoffArguments& options) {
   TradeoffReport report;
-  for (const char32_t code : characters_of(options.text)) {
-    if (report.text.find(code) == std::u32string::npos) report.text += code;
-  }
   report.seed = report.nearest_options.seed = report.servo_options.seed = options.seed;
   if (options.quick) {
     report.nearest_options.queries = 400;
@@ -107,8 +104,8 @@ void draw(const TradeoffReport& report, OutputDirectory& out, const Interrupt& i
 
 void run(const TradeoffArguments& options) {
   TradeoffReport report = asked_for(options);
-  const auto [set, text] = open_characters(options.characters, report.text);
-  report.text = text;
+  const auto [set, read] = open_characters(options.characters, characters_of(options.text));
+  const std::u32string text = report.text = each_once(read);
   report.written = text.substr(0, options.quick ? 1 : max_written);
   const std::vector<Character> characters = characters_of(set, text);
   if (curve_control_points(characters).empty()) {

@@ -41,13 +41,13 @@ Findings findings(const ValidateArguments& options) {
   Progress progress;
   ImportOptions asked;
   asked.letters = options.letters;
-  if (options.only) asked.only = characters_of(*options.only);
+  if (options.only) asked.only = codes_of(characters_of(*options.only));
   asked.threads = options.threads;
   asked.ink = InkDetail::none;
   asked.report = !is_own_format(options.file);
   asked.progress = [&progress](double share) { progress.show(0.5 * share); };
   const ImportResult import = import_source(options.file, asked);
-  warn_of_missing(asked.only, import.list, options.file);
+  if (options.only) tell_of_only(*options.only, import.list, options.file);
   Findings found{contents_of(import.list), {}};
   const auto second_half = [&progress](double share) { progress.show(0.5 + 0.5 * share); };
   found.characters = import_warnings(import, options.threads, second_half);

@@ -37,6 +37,7 @@
 #include <calligraphy/model/character.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_text.hpp>
 #include <calligraphy/model/ink_outline.hpp>
 #include <calligraphy/model/placed_character.hpp>
 #include <calligraphy/model/point.hpp>

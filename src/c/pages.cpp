@@ -2,7 +2,7 @@
 #include <cmath>
 #include <string_view>
 
-#include <calligraphy/base/text.hpp>
+#include <calligraphy/model/character_text.hpp>
 #include <calligraphy/model/ink_outline.hpp>
 #include <calligraphy/model/stroke_polyline.hpp>
 #include <calligraphy/model/typical_ink.hpp>
@@ -75,7 +75,9 @@ calligraphy_status calligraphy_page_lay_out(const calligraphy_set* set, const ch
     const CharacterSet& from = object<CharacterSet>(set);
     target(page, "page");
     std::vector<Character> characters;
-    for (const char32_t code : decode_utf8(&target(text, "text"))) characters.push_back(find_character(from, code));
+    for (const TextCharacter& each : text_characters(&target(text, "text"))) {
+      characters.push_back(find_character(from, each.code_in(from)));
+    }
     if (characters.empty()) throw Refusal(CALLIGRAPHY_INVALID_VALUE, "text is empty");
     PracticePage first = std::move(lay_out(characters, layout_of(layout)).front());
     const auto count = static_cast<std::int32_t>(first.characters.size());

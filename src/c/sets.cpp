@@ -1,5 +1,8 @@
 #include <cstddef>
+#include <string>
 #include <vector>
+
+#include <calligraphy/model/character_text.hpp>
 
 #include "objects.hpp"
 #include "structs.hpp"
@@ -45,5 +48,26 @@ calligraphy_status calligraphy_set_stroke_count(const calligraphy_set* set, uint
   return guarded([&] {
     const Character character = find_character(object<CharacterSet>(set), code);
     target(stroke_count, "stroke_count") = character.stroke_count();
+  });
+}
+
+calligraphy_status calligraphy_text_read(const calligraphy_set* set, const char* text, int32_t index,
+                                         calligraphy_text_character* character) {
+  return guarded([&] {
+    const auto& from = object<CharacterSet>(set);
+    const std::vector<TextCharacter> characters = text_characters(&target(text, "text"));
+    if (index < 0) throw Refusal(CALLIGRAPHY_INVALID_VALUE, "index = " + std::to_string(index));
+    if (static_cast<std::size_t>(index) >= characters.size()) {
+      throw Refusal(CALLIGRAPHY_NOT_FOUND, "the text has " + std::to_string(characters.size()) + " characters");
+    }
+    const TextCharacter& found = characters[static_cast<std::size_t>(index)];
+    thread_local std::string note;
+    note = reading_note(found, found.code_in(from));
+    write_struct(character, "calligraphy_text_character",
+                 {.size = 0,
+                  .written = found.written,
+                  .code = found.code_in(from),
+                  .selector = found.selector,
+                  .note = note.c_str()});
   });
 }

@@ -140,6 +140,7 @@ std::vector<HandleCall> handle_calls(Everything& all) {
   static auto stroke_score = sized<calligraphy_stroke_score>();
   static auto pen_down_score = sized<calligraphy_pen_down_score>();
   static auto place = sized<calligraphy_stroke_place>();
+  static auto text_character = sized<calligraphy_text_character>();
   static auto trace_info = sized<calligraphy_trace_info>();
   using Set = calligraphy_set;
   using Page = calligraphy_page;
@@ -154,6 +155,7 @@ std::vector<HandleCall> handle_calls(Everything& all) {
   return {
       {"set_next", "set", [](void* h) { return calligraphy_set_next(as<Set>(h), 0, &code); }},
       {"set_stroke_count", "set", [](void* h) { return calligraphy_set_stroke_count(as<Set>(h), U'永', &number); }},
+      {"text_read", "set", [](void* h) { return calligraphy_text_read(as<Set>(h), "永", 0, &text_character); }},
       {"page_lay_out", "set",
        [](void* h) { return calligraphy_page_lay_out(as<Set>(h), "永", nullptr, nullptr, &page); }},
       {"page_character", "page", [](void* h) { return calligraphy_page_character(as<Page>(h), 0, &placed); }},
@@ -450,6 +452,7 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
   const auto polyline = [&](std::int32_t character, std::int32_t index, int shape, double tolerance) {
     return calligraphy_page_polyline(all.page.get(), character, index, shape, tolerance, points, 1, &count);
   };
+  auto read = sized<calligraphy_text_character>();
   const auto no_law = sized<calligraphy_guidance_functions>();
   auto later_stylus = sized<calligraphy_stylus>();
   later_stylus.known = 64;
@@ -482,6 +485,9 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
        [&] { return calligraphy_set_stroke_count(all.set.get(), U'永', nullptr); }},
       {"strokes", CALLIGRAPHY_NOT_FOUND, "龘 (U+9F98)",
        [&] { return calligraphy_set_stroke_count(all.set.get(), U'龘', &number); }},
+      {"text", CALLIGRAPHY_NOT_FOUND, "the text has 1 characters",
+       [&] { return calligraphy_text_read(all.set.get(), " 永", 1, &read); }},
+      {"text", value, "index = -1", [&] { return calligraphy_text_read(all.set.get(), "永", -1, &read); }},
       {"text", value, "text is null",
        [&] { return calligraphy_page_lay_out(all.set.get(), nullptr, nullptr, nullptr, &page); }},
       {"text", value, "text is empty",

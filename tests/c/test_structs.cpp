@@ -532,6 +532,7 @@ TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its 
   CHECK(sizeof(calligraphy_stroke_score) == 56);
   CHECK(sizeof(calligraphy_pen_down_score) == 64);
   CHECK(sizeof(calligraphy_trace_info) == 32);
+  CHECK(sizeof(calligraphy_text_character) == 24);
 }
 
 TEST_CASE("the names of C are the values of C++") {

@@ -65,6 +65,25 @@ bool same(const HapticTick& a, const calligraphy_tick& b) {
 
 }  // namespace
 
+TEST_CASE("a text is laid out as its characters are read, and what differs is told") {
+  calligraphy_set* set = nullptr;
+  REQUIRE(calligraphy_set_built_in(&set) == CALLIGRAPHY_OK);
+  auto read = sized<calligraphy_text_character>();
+  const char* const text = "永 \u200B\u2F00\uFE00";
+  REQUIRE(calligraphy_text_read(set, text, 0, &read) == CALLIGRAPHY_OK);
+  CHECK(std::string(read.note).empty());
+  REQUIRE(calligraphy_text_read(set, text, 1, &read) == CALLIGRAPHY_OK);
+  CHECK((read.written == 0x2F00 && read.code == U'一' && read.selector == 0xFE00));
+  CHECK(std::string(read.note).find("is read as 一 (U+4E00)") != std::string::npos);
+  calligraphy_page* page = nullptr;
+  REQUIRE(calligraphy_page_lay_out(set, text, nullptr, nullptr, &page) == CALLIGRAPHY_OK);
+  auto placed = sized<calligraphy_placed_character>();
+  REQUIRE(calligraphy_page_character(page, 1, &placed) == CALLIGRAPHY_OK);
+  CHECK(placed.code == U'一');
+  calligraphy_free(page);
+  calligraphy_free(set);
+}
+
 TEST_CASE("a page is written with the forces of C++ to the last bit") {
   const auto [preset, options_in_cpp] =
       GENERATE_COPY(table<calligraphy_preset, RendererOptions (*)(const Capabilities&)>(

@@ -108,6 +108,13 @@ TEST_CASE("what a pen senses besides its place comes back to the last bit", "[ju
   CHECK(traces[1].air.empty());
 }
 
+TEST_CASE("a variation selector stays with its character", "[judge]") {
+  const std::string text = "C 葛\U000E0101 845B t 1000 1\nS 1 100 500 0\n";
+  const std::vector<PenTrace> traces = parse_pen_traces(text, "traces");
+  CHECK((traces[0].character == U'葛' && traces[0].selector == U'\U000E0101'));
+  CHECK(pen_traces_text(traces) == text);
+}
+
 TEST_CASE("what the eraser did is no writing", "[judge]") {
   const PenTrace trace = read(with_senses)[0];
   CHECK(is_erasing(trace.strokes[0]));

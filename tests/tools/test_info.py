@@ -88,6 +88,12 @@ class Info(ProgramTest):
                                            "--json").stdout)["text"]
         self.assertEqual(row["sequence"], [2, 1, 10, 31, 4])
 
+    def test_a_character_is_read_as_the_one_it_means_and_the_program_says_so(self):
+        done = self.run_program("info", "\u2f00\u200b\u5317\ufe00\u4e00", "--json")
+        self.assertEqual([row["character"] for row in json.loads(done.stdout)["text"]], ["一", "北"])
+        self.assertIn("\u2f00 (U+2F00) is read as 一 (U+4E00)", done.stderr)
+        self.assertIn("北 (U+5317) is read without its variation selector, U+FE00", done.stderr)
+
     def test_the_first_argument_is_a_file_if_one_exists(self):
         (self.directory / "北").write_bytes((DATA / "version_1.set").read_bytes())
         self.assertEqual(json.loads(self.run_program("info", "北", "--json").stdout)["characters"], 3)

@@ -16,6 +16,22 @@ export async function openCharacters(library) {
   return { set: handle, characters: listed(library, handle), isImported: false };
 }
 
+/**
+ * The first character of a text, as the set has it, and what is to be told of that.
+ * @param {import("../calligraphy.js").Library} library @param {number} set @param {string} text
+ */
+export function readCharacter(library, set, text) {
+  const read = library.struct("text_character");
+  try {
+    library.text_read(set, text, 0, read);
+    return { character: String.fromCodePoint(read.code), note: library.text(read.note) };
+  } catch {
+    return { character: text, note: "" };  // it has none
+  } finally {
+    library.discard(read);
+  }
+}
+
 /** The bytes of a file beside the page; none where it is missing. @param {string} name */
 async function fetched(name) {
   const response = await fetch(new URL(`../${name}`, import.meta.url));

@@ -1,6 +1,6 @@
 // The page: what is chosen, and how it goes.
 import { CalligraphyError, constants, load } from "../calligraphy.js";
-import { openCharacters } from "./characters.js";
+import { openCharacters, readCharacter } from "./characters.js";
 import { Lesson, modes } from "./lesson.js";
 import { Paper } from "./paper.js";
 import { Pointer } from "./pointer.js";
@@ -163,7 +163,10 @@ async function main() {
   async function openFile(file) {
     if (!file) return;
     try {
-      const { character, trace } = await openTrace(library, file, (each) => characters.includes(each));
+      const { character, trace } = await openTrace(library, file, (each) => {
+        const { character } = readCharacter(library, set, each);
+        return characters.includes(character) ? character : "";
+      });
       if (settings.mode === "watch") find("modes").querySelector("input")?.click();  // in which is written
       if (begin(character)) lesson.play(trace);
     } catch (error) {
@@ -174,10 +177,12 @@ async function main() {
   }
 
   function beginAsked() {
-    const character = asked();
+    const { character, note } = readCharacter(library, set, asked());
     beginFrom(Math.max(0, characters.indexOf(character)));
     if (character && character !== lesson.character) {
       find("progress").textContent = `${character} is not among the ${characters.length} characters`;
+    } else if (note) {
+      find("progress").textContent = note;
     }
   }
 

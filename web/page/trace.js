@@ -102,22 +102,22 @@ export class Trace {
 }
 
 /**
- * The first trace of a file of a character that is known.
+ * The first trace of a file of a character that is known: `known` returns it as it is known, empty if it is not.
  * @param {Library} library
  * @param {File} file
- * @param {(character: string) => boolean} isKnown
+ * @param {(character: string) => string} known
  * @returns {Promise<{character: string, trace: Trace}>}
  */
-export async function openTrace(library, file, isKnown) {
+export async function openTrace(library, file, known) {
   const bytes = await unpacked(file), traces = library.traces_from_memory(bytes, bytes.length, file.name);
   const info = library.struct("trace_info");
   try {
     const others = new Set();
     for (let i = 0; i < library.traces_count(traces); ++i) {
       library.traces_read_info(traces, i, info);
-      const character = String.fromCodePoint(info.code);
-      if (isKnown(character)) return { character, trace: read(library, traces, i, info, noticeOf(bytes)) };
-      others.add(character);
+      const written = String.fromCodePoint(info.code), character = known(written);
+      if (character) return { character, trace: read(library, traces, i, info, noticeOf(bytes)) };
+      others.add(written);
     }
     throw new Error(others.size === 0 ? "there is no pen trace in it"
       : `none of its characters is on this page: ${[...others].slice(0, 10).join(" ")}`);

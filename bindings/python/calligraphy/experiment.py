@@ -135,7 +135,8 @@ class Grid:
             source = cal.built_in_characters()
         elif not isinstance(source, cal.CharacterSet):
             source = _one("source", source, cal.CharacterList)
-        self.characters = {code: _character(source, code) for code in codes}
+        found = [_character(source, code) for code in codes]
+        self.characters = {character.code: character for character in found}
         self.writers = _writers(writers)
         self.modes = _axis("modes", _list("modes", modes), _name_of(cal.FeedbackMode))
         self.stiffness = _axis("stiffness", stiffness, _positive)

@@ -17,6 +17,7 @@
 #include <Eigen/Geometry>
 
 #include <calligraphy/devices/servo.hpp>
+#include <calligraphy/model/character_text.hpp>
 #include <calligraphy/model/placed_character.hpp>
 #include <calligraphy/render/guidance_law.hpp>
 
@@ -48,6 +49,13 @@ namespace calligraphy::python {
 template <class... Values>
 std::string formatted(const char* format, Values&&... values) {
   return py::str(format).format(std::forward<Values>(values)...).template cast<std::string>();
+}
+
+/// @throws ValueError naming the argument if the text is not one character
+inline TextCharacter one_character(const std::string& text, const char* name) {
+  const std::vector<TextCharacter> characters = text_characters(text);
+  if (characters.size() == 1) return characters.front();
+  throw ValueError(formatted("{}: expected one character, got '{}'", name, text));
 }
 
 /// A C++ enumeration. The text of each member also follows that of the class, because help() shows only this.

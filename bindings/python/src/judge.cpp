@@ -72,14 +72,15 @@ std::vector<PenStroke> pen_strokes(const GivenPaths& given) {
 
 using Lists = std::vector<ArrayLike>;
 
-PenTrace trace_of(char32_t character, const Lists& strokes, std::string set, double em, const Lists& stylus,
+PenTrace trace_of(const std::string& text, const Lists& strokes, std::string set, double em, const Lists& stylus,
                   const Lists& buttons, const Lists& air, const Lists& air_stylus, const Lists& air_buttons) {
   if (!air.empty() && air.size() != strokes.size() + 1) {
     throw ValueError(formatted("air: expected one array more than strokes, {}, or none, got {}", strokes.size() + 1,
                                air.size()));
   }
-  return {character, std::move(set), em, pen_strokes({"strokes", "stylus", "buttons", strokes, stylus, buttons}),
-          pen_strokes({"air", "air_stylus", "air_buttons", air, air_stylus, air_buttons})};
+  const TextCharacter character = one_character(text, "character");
+  return {character.written, std::move(set), em, pen_strokes({"strokes", "stylus", "buttons", strokes, stylus, buttons}),
+          pen_strokes({"air", "air_stylus", "air_buttons", air, air_stylus, air_buttons}), character.selector};
 }
 
 std::vector<PenPath> paths_of(const std::vector<ArrayLike>& paths) {
@@ -192,6 +193,10 @@ void add_judge(py::module_& module) {
            "stylus"_a = Lists(), "buttons"_a = Lists(), "air"_a = Lists(), "air_stylus"_a = Lists(),
            "air_buttons"_a = Lists())
       .def_readonly("character", &PenTrace::character)
+      .def_property_readonly(
+          "selector",
+          [](const PenTrace& self) { return self.selector == 0 ? std::string() : encode_utf8(self.selector); },
+          "variation selector after the character, which asks for one of its forms; empty: none")
       .def_property_readonly("strokes", &places_of<&PenTrace::strokes>,
                              "one array (n, 3) per pen-down, copied: x, y [em], time [s]")
       .def_property_readonly("stylus", &stylus_of<&PenTrace::strokes>,

@@ -51,15 +51,41 @@ Character character_of(char32_t code, const std::string& order, int curve_degree
 Character decoded(const Character& character) { return character; }
 Character decoded(const StoredCharacter& stored) { return stored.character(); }
 
+/// Says how a character is read, in the form of Python.
+void warn_of_reading(const TextCharacter& character, char32_t code) {
+  const std::string note = reading_note(character, code);
+  if (!note.empty() && PyErr_WarnEx(PyExc_UserWarning, note.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 template <class Characters>
-std::optional<Character> find(const Characters& characters, char32_t code, const std::string& order) {
+std::optional<Character> find(const Characters& characters, const std::string& text, const std::string& order) {
+  const TextCharacter character = one_character(text, "character");
+  const char32_t code = character.code_in(characters);
   const auto found = characters.find(code, order);
-  return found ? std::optional(decoded(*found)) : std::nullopt;
+  if (!found) return std::nullopt;
+  warn_of_reading(character, code);
+  return decoded(*found);
 }
 template <class Characters>
-Character at(const Characters& characters, char32_t code) {
-  if (const std::optional<Character> found = find(characters, code, "")) return *found;
-  throw py::key_error(encode_utf8(code) + " is not in this set of characters");
+Character at(const Characters& characters, const std::string& text) {
+  if (const std::optional<Character> found = find(characters, text, "")) return *found;
+  throw py::key_error(text + " is not in this set of characters");
+}
+template <class Characters>
+bool contains(const Characters& characters, const std::string& text) {
+  return static_cast<bool>(characters.find(one_character(text, "character").code_in(characters)));
+}
+template <class Characters>
+std::vector<Character> text_in(const Characters& characters, const std::string& text) {
+  std::vector<Character> found;
+  for (const TextCharacter& each : text_characters(text)) {
+    const char32_t code = each.code_in(characters);
+    const auto character = characters.find(code);
+    if (!character) throw py::key_error(encode_utf8(each.written) + " is not in this set of characters");
+    warn_of_reading(each, code);
+    found.push_back(decoded(*character));
+  }
+  return found;
 }
 
 void add_ink(py::module_& module) {
@@ -199,17 +225,20 @@ void add_model(py::module_& module) {
   module.def("with_typical_ink", &with_typical_ink, "character"_a);
   module.def("paper_example", &paper_example, py::return_value_policy::copy);
 
+  constexpr const char* text_doc =
+      "The characters of a text, in order, without white space and code points that have no ink. Warns of those that "
+      "are read as another one. Raises KeyError.";
   py::class_<CharacterList> type(module, "CharacterList");
   each_field<CharacterList>([&](const auto& field) { add_field(type, field); });
   type.def(py::init([](std::vector<Character> characters, Provenance provenance) {
              return CharacterList{std::move(provenance), std::move(characters)};
            }),
            "characters"_a = std::vector<Character>{}, "provenance"_a = Provenance{})
-      .def("find", &find<CharacterList>, "code"_a, "order"_a = "",
+      .def("find", &find<CharacterList>, "character"_a, "order"_a = "",
            "The Character in the stroke order of this name (empty: the standard one), or None.")
-      .def("__getitem__", &at<CharacterList>, "code"_a)
-      .def(
-          "__contains__", [](const CharacterList& self, char32_t code) { return self.find(code) != nullptr; }, "code"_a)
+      .def("__getitem__", &at<CharacterList>, "character"_a)
+      .def("__contains__", &contains<CharacterList>, "character"_a)
+      .def("text", &text_in<CharacterList>, "text"_a, text_doc)
       .def("__len__", [](const CharacterList& self) { return self.characters.size(); })
       .def("__iter__",  // over a copy, because the list may change
            [](const CharacterList& self) {
@@ -242,10 +271,10 @@ void add_model(py::module_& module) {
           "bytes"_a, "name"_a = "bytes")
       .def_static(
           "layered", [](const std::vector<CharacterSet>& sets) { return CharacterSet::layered(sets); }, "sets"_a)
-      .def("find", &find<CharacterSet>, "code"_a, "order"_a = "")
-      .def("__getitem__", &at<CharacterSet>, "code"_a)
-      .def(
-          "__contains__", [](const CharacterSet& self, char32_t code) { return self.find(code).has_value(); }, "code"_a)
+      .def("find", &find<CharacterSet>, "character"_a, "order"_a = "")
+      .def("__getitem__", &at<CharacterSet>, "character"_a)
+      .def("__contains__", &contains<CharacterSet>, "character"_a)
+      .def("text", &text_in<CharacterSet>, "text"_a, text_doc)
       .def("__len__", &CharacterSet::size)
       .def(
           "__iter__",

@@ -84,6 +84,17 @@ def test_a_list_and_a_set_contain_the_same_characters(tmp_path):
         stored["龘"]
 
 
+@pytest.mark.parametrize("characters", [cal.built_in_characters(), cal.CharacterSet(cal.built_in_characters())])
+def test_characters_are_found_as_people_paste_them_and_a_warning_says_how(characters):
+    with pytest.warns(UserWarning, match="is read as 一"):
+        assert characters["\u2f00"].code == "一"
+    with pytest.warns(UserWarning, match="without its variation selector, U\\+FE00"):
+        assert [each.code for each in characters.text("\ufeff永 \u200b一\ufe00")] == ["永", "一"]
+    assert "\u2f00" in characters
+    with pytest.raises(ValueError, match="expected one character, got '永一'"):
+        characters.find("永一")
+
+
 def test_errors_derive_from_one_base_and_from_built_in_exceptions(tmp_path):
     with pytest.raises(cal.FileError) as missing:
         cal.CharacterSet.open(str(tmp_path / "nowhere.set"))

@@ -91,6 +91,20 @@ CALLIGRAPHY_API calligraphy_status calligraphy_set_next(const calligraphy_set* s
 CALLIGRAPHY_API calligraphy_status calligraphy_set_stroke_count(const calligraphy_set* set, uint32_t code,
                                                                 int32_t* stroke_count);
 
+/// A character of a text.
+typedef struct calligraphy_text_character {
+  uint32_t size;      ///< sizeof(calligraphy_text_character)
+  uint32_t written;   ///< code point in the text
+  uint32_t code;      ///< code point under which the set has it: `written`, or the unified ideograph that it stands for
+  uint32_t selector;  ///< variation selector after it, which has no effect; 0: none
+  const char* note;   ///< what a person is to be told of this, mostly nothing: ""; valid until the next call in this thread
+} calligraphy_text_character;
+
+/// Reads a character of a text in UTF-8 by its index, from 0. White space and code points without ink do not count.
+/// CALLIGRAPHY_NOT_FOUND past the last one; whether the set has it must be asked elsewhere.
+CALLIGRAPHY_API calligraphy_status calligraphy_text_read(const calligraphy_set* set, const char* text, int32_t index,
+                                                         calligraphy_text_character* character);
+
 // Pages.
 
 /// Placed characters, in the order in which they are to be written. Any number of threads may use one.
@@ -105,9 +119,9 @@ typedef struct calligraphy_layout {
   double gap;     ///< between the squares, and between them and the edge of the page; 0.2 em by default [m]
 } calligraphy_layout;
 
-/// Lays out the characters of a text in UTF-8 from left to right and top to bottom; all must be in the set, so no
-/// spaces. Writes how many fit, from the first on, to `placed`; if that is null, all must fit. Null `layout`: the
-/// default.
+/// Lays out the characters of a text in UTF-8, as calligraphy_text_read() reads them, from left to right and top to
+/// bottom; all must be in the set. Writes how many fit, from the first on, to `placed`; if that is null, all must fit.
+/// Null `layout`: the default.
 CALLIGRAPHY_API calligraphy_status calligraphy_page_lay_out(const calligraphy_set* set, const char* text,
                                                             const calligraphy_layout* layout, int32_t* placed,
                                                             calligraphy_page** page);

@@ -34,6 +34,7 @@ struct PenTrace {
   /// The pen in the air before each pen-down, and after the last: one more than there are strokes, each of which may be
   /// empty. Empty: not recorded.
   std::vector<PenStroke> air = {};
+  char32_t selector = 0;  ///< variation selector after the character, which asks for one of its forms; 0: none
 };
 
 /// Reads the text format, of this version or an older one. `name` is used in messages.

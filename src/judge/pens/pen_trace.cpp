@@ -15,6 +15,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/model/character_text.hpp>
 
 #include "base/charconv.hpp"
 #include "base/line_reader.hpp"
@@ -191,10 +192,13 @@ class TraceParser : private LineReader {
     const auto code = number_in<std::uint32_t>(hex, 16);
     if (!code || !is_character(*code)) fail("the code is '" + std::string(hex) + "': expected a Unicode character");
     trace.character = *code;
-    if (encode_utf8(trace.character) != text) {
-      fail("the character does not match the code " + std::string(hex) + ", or is not UTF-8");
-    }
-    trace.set = utf8(next_word("the name of a set"));
+    const std::u32string codes = utf8(text, "the character");
+    const std::u32string expected = codes.size() == 2 && is_variation_selector(codes[1]) ? codes.substr(0, 1) : codes;
+    if (expected != std::u32string(1, *code)) fail("the character '" + std::string(text) + "' does not match the code " + std::string(hex));
+    if (codes.size() == 2) trace.selector = codes[1];
+    const std::string_view set = next_word("the name of a set");
+    utf8(set, "the name of the set");
+    trace.set = set;
     trace.em = next_number("the em", finest, max_em);
     announced_ = next_count("the number of strokes", max_trace_strokes);
     announced_air_ = 0;
@@ -253,13 +257,12 @@ class TraceParser : private LineReader {
     if (fields_.has(tilt_x_name)) set_tilt(point.stylus, tilt_x, tilt_y);
   }
 
-  std::string utf8(std::string_view word) const {
+  std::u32string utf8(std::string_view word, const std::string& what) const {
     try {
-      decode_utf8(word);
+      return decode_utf8(word);
     } catch (const FormatError& error) {
-      fail(std::string("the name of the set: ") + error.what());
+      fail(what + ": " + error.what());
     }
-    return std::string(word);
   }
 
   PenStroke stroke(const PenTrace& trace) {
@@ -334,6 +337,8 @@ void require_writable(const PenTrace& trace, std::size_t index) {
     if (!good) throw ValueError("pen trace " + std::to_string(index + 1) + ": " + what);
   };
   require(is_character(trace.character), "its character's code is " + code_in_hex(trace.character));
+  require(trace.selector == 0 || is_variation_selector(trace.selector),
+          "its variation selector's code is " + code_in_hex(trace.selector));
   require(!trace.set.empty() && trace.set.find_first_of(" \r\n") == std::string::npos,
           "its set is '" + trace.set + "': expected a word");
   decode_utf8(trace.set);
@@ -444,7 +449,9 @@ std::string pen_traces_text(const std::vector<PenTrace>& traces, std::string_vie
     const PenTrace& trace = traces[i];
     require_writable(trace, i);
     const PointFields fields = fields_of(trace);
-    text.append("C ").append(encode_utf8(trace.character)).append(" ").append(code_in_hex(trace.character));
+    text.append("C ").append(encode_utf8(trace.character));
+    if (trace.selector != 0) text.append(encode_utf8(trace.selector));
+    text.append(" ").append(code_in_hex(trace.character));
     text.append(" ").append(trace.set);
     append_rounded(text += ' ', trace.em, decimal_places);
     text.append(" ").append(std::to_string(trace.strokes.size()));
