@@ -75,9 +75,13 @@ std::string place_of(const std::vector<std::string>& paths) {
 }  // namespace
 
 CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32string& text) {
+  const CharacterList& strokes = typical_stroke_characters();
+  std::u32string characters = text;
+  std::erase_if(characters, [&strokes](char32_t code) { return strokes.find(code) != nullptr; });
   std::vector<CharacterSet> sets;
-  for (const std::string& path : paths) sets.push_back(open_one(path, text));
+  for (const std::string& path : paths) sets.push_back(open_one(path, characters));
   if (paths.empty()) sets.emplace_back(built_in_characters());
+  if (characters.size() < text.size()) sets.emplace_back(strokes);
   return CharacterSet::layered(sets);
 }
 

@@ -18,7 +18,8 @@ class Option;
 namespace calligraphy::tools {
 
 /// Opens the files and directories in `paths`, layered with the first on top; without any, the built-in set. From a
-/// directory, only the characters of `text` are read. @throws Error naming the file
+/// directory, only the characters of `text` are read. The typical strokes are below if `text` has any.
+/// @throws Error naming the file
 CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32string& text);
 
 /// As import_characters(). @throws UsageError naming an option that does not apply to this kind of source

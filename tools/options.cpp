@@ -1,5 +1,6 @@
 #include "options.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <string_view>
 
@@ -9,6 +10,8 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/model/character_list.hpp>
+#include <calligraphy/model/typical_stroke.hpp>
 
 #include "commands.hpp"
 
@@ -20,6 +23,20 @@ bool parse(const std::string& word, Number& value) {
   const char* const end = word.data() + word.size();
   const auto [rest, failure] = std::from_chars(word.data(), end, value);
   return failure == std::errc() && rest == end;
+}
+
+/// Typical strokes by their numbers, as in "5" or "1, 5, 38"; empty if the text is anything else.
+std::vector<TextCharacter> numbered_strokes(const std::string& text) {
+  std::vector<TextCharacter> strokes;
+  constexpr std::string_view separators = " ,\t\n";
+  for (std::size_t at = 0; (at = text.find_first_not_of(separators, at)) != std::string::npos;) {
+    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
+    int id = 0;
+    if (!parse(text.substr(at, end - at), id) || id < 1 || id > typical_stroke_count) return {};
+    strokes.push_back({typical_stroke_code(id), typical_stroke_code(id), 0});
+    at = end;
+  }
+  return strokes;
 }
 
 }  // namespace
@@ -43,7 +60,8 @@ CLI::Validator integer(unsigned long long least, unsigned long long most) {
 }
 
 std::vector<TextCharacter> characters_of(const std::string& text) {
-  std::vector<TextCharacter> characters;
+  std::vector<TextCharacter> characters = numbered_strokes(text);
+  if (!characters.empty()) return characters;
   try {
     characters = text_characters(text);
   } catch (const FormatError& error) {

@@ -21,7 +21,7 @@ CLI::Validator number(double least, double most);
 /// Accepts an argument that is entirely an integer in [least, most].
 CLI::Validator integer(unsigned long long least, unsigned long long most);
 
-/// As text_characters(). @throws UsageError if the text is not UTF-8 or has no characters
+/// As text_characters(), or typical strokes by their numbers. @throws UsageError if the text is not UTF-8 or has no characters
 std::vector<TextCharacter> characters_of(const std::string& text);
 
 /// The code points that they may have in a source: as written, and as meant.

@@ -17,6 +17,13 @@ calligraphy_status calligraphy_set_built_in(calligraphy_set** set) {
   });
 }
 
+calligraphy_status calligraphy_set_typical_strokes(calligraphy_set** set) {
+  return guarded([&] {
+    target(set, "set");
+    hand_out(set, std::make_shared<CharacterSet>(typical_stroke_characters()));
+  });
+}
+
 calligraphy_status calligraphy_set_open(const char* path, calligraphy_set** set) {
   return guarded([&] {
     target(set, "set");

@@ -478,6 +478,7 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
       {"built in", value, "set is null", [&] { return calligraphy_set_built_in(nullptr); }},
       {"open", value, "path is null", [&] { return calligraphy_set_open(nullptr, &set); }},
       {"open", value, "set is null", [&] { return calligraphy_set_open("a", nullptr); }},
+      {"strokes", value, "set is null", [&] { return calligraphy_set_typical_strokes(nullptr); }},
       {"memory", value, "bytes is null", [&] { return calligraphy_set_from_memory(nullptr, 3, nullptr, &set); }},
       {"next", value, "code is null", [&] { return calligraphy_set_next(all.set.get(), 0, nullptr); }},
       {"next", CALLIGRAPHY_NOT_FOUND, "at or after", [&] { return calligraphy_set_next(all.set.get(), ~0u, &code); }},

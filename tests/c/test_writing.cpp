@@ -84,6 +84,17 @@ TEST_CASE("a text is laid out as its characters are read, and what differs is to
   calligraphy_free(set);
 }
 
+TEST_CASE("a typical stroke is written alone") {
+  calligraphy_set* set = nullptr;
+  REQUIRE(calligraphy_set_typical_strokes(&set) == CALLIGRAPHY_OK);
+  std::int32_t count = 0;
+  for (const std::uint32_t code : {U'㇀', U'㇥', U'①', U'㊴'}) {
+    CHECK(calligraphy_set_stroke_count(set, code, &count) == CALLIGRAPHY_OK);
+    CHECK(count == 1);
+  }
+  calligraphy_free(set);
+}
+
 TEST_CASE("a page is written with the forces of C++ to the last bit") {
   const auto [preset, options_in_cpp] =
       GENERATE_COPY(table<calligraphy_preset, RendererOptions (*)(const Capabilities&)>(

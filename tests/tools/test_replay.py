@@ -101,6 +101,20 @@ class Replay(ReplayTest):
         one, two, three = THREE
         self.assertEqual(self.remarks(character("三", [one, two[::-1], three])), [[("direction", 2, 2)]])
 
+    def test_a_typical_stroke_is_judged_alone(self):
+        numbers = " ".join(map(str, range(1, 40)))
+        strokes = json.loads(self.run_program("info", numbers, "--json").stdout)["text"]
+        lines = []
+        for row in strokes:
+            points = row["strokes"][0]["control_points_em"]  # a polygon through them: the shape's outline, not its curves
+            for turn, name in ((points, "forwards"), (points[::-1], "backwards")):
+                samples = " ".join(f"{1000 * x:g} {1000 - 1000 * y:g} {100 * i}" for i, (x, y) in enumerate(turn))
+                lines.append(f"C {row['character']} {ord(row['character']):X} {name} 1000 1\nS {len(turn)} {samples}\n")
+        (self.directory / "strokes.txt").write_text("".join(lines))
+        for trace in json.loads(self.run_program("replay", "strokes.txt", "--json").stdout)["traces"]:
+            kinds = [remark["kind"] for remark in trace["remarks"]]
+            self.assertEqual("direction" in kinds, trace["set"] == "backwards", trace)
+
     def test_another_character_is_told_instead_of_its_strokes(self):
         ((remark,),) = [trace["remarks"] for trace in self.replay(character("二", TEN))["traces"]]
         self.assertEqual((remark["kind"], remark["other_character"]), ("character", "十"))

@@ -1,6 +1,6 @@
 // The page: what is chosen, and how it goes.
 import { CalligraphyError, constants, load } from "../calligraphy.js";
-import { openCharacters, readCharacter } from "./characters.js";
+import { openCharacters, readCharacter, setWith } from "./characters.js";
 import { Lesson, modes } from "./lesson.js";
 import { Paper } from "./paper.js";
 import { Pointer } from "./pointer.js";
@@ -45,7 +45,7 @@ function asked() {
 
 async function main() {
   const library = await load();
-  const { set, characters, isImported } = await openCharacters(library);
+  const opened = await openCharacters(library), { characters, isImported } = opened;
   const hint = find("hint"), paperElement = find("paper"), result = find("result");
   const paper = new Paper(paperElement, () => lesson.redraw());
   const pointer = new Pointer(paperElement, paper, () => lesson.wake());
@@ -98,11 +98,14 @@ async function main() {
     else showResult(result, lesson, data);
   };
 
+  const isKnown = (/** @type {string} */ character) => (
+    characters.includes(character) || setWith(library, opened, character) === opened.strokes);
+
   /** Whether it could begin. @param {string} character */
   function begin(character) {
     const before = lesson;
     try {
-      lesson = new Lesson(library, set, character, settings, paper, pointer,
+      lesson = new Lesson(library, setWith(library, opened, character), character, settings, paper, pointer,
                           { hint: showHint, changed: showProgress, written: judge });
     } catch (error) {
       find("progress").textContent = `${character} cannot be written: ${/** @type {Error} */ (error).message}`;
@@ -164,8 +167,8 @@ async function main() {
     if (!file) return;
     try {
       const { character, trace } = await openTrace(library, file, (each) => {
-        const { character } = readCharacter(library, set, each);
-        return characters.includes(character) ? character : "";
+        const { character } = readCharacter(library, opened, each);
+        return isKnown(character) ? character : "";
       });
       if (settings.mode === "watch") find("modes").querySelector("input")?.click();  // in which is written
       if (begin(character)) lesson.play(trace);
@@ -177,8 +180,9 @@ async function main() {
   }
 
   function beginAsked() {
-    const { character, note } = readCharacter(library, set, asked());
-    beginFrom(Math.max(0, characters.indexOf(character)));
+    const { character, note } = readCharacter(library, opened, asked());
+    const isOffered = characters.includes(character);
+    if (isOffered || !isKnown(character) || !begin(character)) beginFrom(Math.max(0, characters.indexOf(character)));
     if (character && character !== lesson.character) {
       find("progress").textContent = `${character} is not among the ${characters.length} characters`;
     } else if (note) {

@@ -1,6 +1,6 @@
 // Judges what was written, in a thread of its own: a long character takes longer than a picture may.
 import { load } from "../calligraphy.js";
-import { openCharacters } from "./characters.js";
+import { openCharacters, setWith } from "./characters.js";
 import { layOut } from "./desk.js";
 import { replay } from "./recorder.js";
 
@@ -33,7 +33,7 @@ const ready = load().then(async (library) => ({ library, characters: await openC
 self.onmessage = async (/** @type {MessageEvent<Task>} */ { data }) => {
   try {
     const { library, characters } = await ready;
-    self.postMessage({ id: data.id, ...judged(library, characters.set, data) });
+    self.postMessage({ id: data.id, ...judged(library, setWith(library, characters, data.character), data) });
   } catch (error) {
     self.postMessage({ id: data.id, error: error instanceof Error ? error.message : String(error) });
   }

@@ -244,6 +244,8 @@ void add_model(py::module_& module) {
            [](const CharacterList& self) {
              return py::typing::Iterator<Character>(py::iter(py::cast(std::vector<Character>(self.characters))));
            });
+  module.def("typical_stroke_code", &typical_stroke_code, "id"_a);
+  module.def("typical_stroke_characters", &typical_stroke_characters, py::return_value_policy::copy);
   module.def("built_in_characters", &built_in_characters, py::return_value_policy::copy);
   module.def("read_characters", from_file(&read_characters), "path"_a);
   module.def("write_characters", to_file(&write_characters), "path"_a, "characters"_a,

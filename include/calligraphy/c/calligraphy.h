@@ -75,6 +75,10 @@ typedef struct calligraphy_set calligraphy_set;
 /// The characters drawn for this library.
 CALLIGRAPHY_API calligraphy_status calligraphy_set_built_in(calligraphy_set** set);
 
+/// The 39 typical strokes, to be practised alone: characters of one stroke, from ㇀ (U+31C0) to ㇥ (U+31E5) but two, and by
+/// their numbers ① (U+2460) to ㊴ (U+32B4), docs/strokes.md.
+CALLIGRAPHY_API calligraphy_status calligraphy_set_typical_strokes(calligraphy_set** set);
+
 /// Opens a set file, or a file in the text format (docs/set-file.md, docs/character-format.md); `path` is in UTF-8.
 CALLIGRAPHY_API calligraphy_status calligraphy_set_open(const char* path, calligraphy_set** set);
 

@@ -29,6 +29,15 @@ const CharacterList& built_in_characters();
 /// with a bend made of lines and the pie written last; built_in_characters() has 北 in the standard order.
 const Character& paper_example();
 
+/// The code point under which typical_stroke_characters() has a typical stroke by its number: ① (U+2460) to ㊴ (U+32B4).
+/// @throws ValueError if id is not in 1..39
+char32_t typical_stroke_code(int id);
+
+/// The 39 typical strokes, each to be practised alone: a character of one stroke for each typical_stroke_code(), and one
+/// for each CJK stroke from ㇀ (U+31C0) to ㇥ (U+31E5) but the two that are no typical stroke. A variant, such as the
+/// short pie, is a stroke order of its CJK stroke that is named after its number, "5".
+const CharacterList& typical_stroke_characters();
+
 /// Reads the text format of docs/character-format.md. `name` is used in messages.
 /// @throws FormatError naming the line and the value
 CharacterList read_characters(std::istream& in, std::string_view name);
