@@ -177,6 +177,13 @@ std::vector<Character> characters_of(const CharacterSet& set, const std::u32stri
   return characters;
 }
 
+void add_no_corrections_flag(CLI::App& command, bool& as_drawn) {
+  command
+      .add_flag("--no-corrections", as_drawn,
+                "hanzi-writer-data: leave stroke orders that are known to be wrong; docs/import.md")
+      ->disable_flag_override();
+}
+
 CLI::Option* add_characters_option(CLI::App& command, std::vector<std::string>& paths) {
   return command
       .add_option("--characters", paths,

@@ -68,6 +68,9 @@ void require_order(const ChosenCharacters& chosen, const std::string& order, con
 /// Of a character, as in: the standard one, "Kaisho".
 std::string order_names(const CharacterSet& set, char32_t code);
 
+/// Adds --no-corrections, which leaves stroke orders as the source has them.
+void add_no_corrections_flag(CLI::App& command, bool& as_drawn);
+
 /// Adds --characters PATH, which may be repeated.
 CLI::Option* add_characters_option(CLI::App& command, std::vector<std::string>& paths);
 

@@ -40,6 +40,7 @@ struct ImportArguments {
   std::string date;
   bool alternates = false;
   bool all = false;
+  bool as_drawn = false;
   int threads = 0;
   bool report = false;
   bool json = false;
@@ -79,6 +80,7 @@ ImportResult imported(const ImportArguments& options, const Interrupt& interrupt
   asked.letters = options.letters;
   asked.alternates = options.alternates;
   asked.ideographs_only = !options.all;
+  asked.corrections = !options.as_drawn;
   asked.ink = ink_details.at(options.ink);
   if (options.only) asked.only = codes_of(characters_of(*options.only));
   asked.date = options.date;
@@ -162,6 +164,7 @@ void add_import(CLI::App& program) {
       ->disable_flag_override();
   command->add_flag("--all", options->all, "KanjiVG: also import kana, Latin letters, radicals and signs")
       ->disable_flag_override();
+  add_no_corrections_flag(*command, options->as_drawn);
   command->add_option("--only", options->only, "Import only these characters")->type_name("TEXT");
   command
       ->add_option("--date", options->date,

@@ -111,6 +111,15 @@ std::string label_table(const ImportReport& report) {
   return text;
 }
 
+std::string corrected_table(const ImportReport& report) {
+  std::string text;
+  for (const OrderCorrected& each : report.corrected) {
+    if (text.empty()) text = "\nstroke orders corrected\n";
+    text += fmt::format("  {}: {}\n", character_label(each.code), each.reason);
+  }
+  return text;
+}
+
 std::string skipped_table(const ImportReport& report) {
   std::string text;
   for (const auto& [reason, files] : skipped_by_reason(report)) {
@@ -174,7 +183,8 @@ std::string tables(const ImportResult& import, const ImportOutput& output) {
          fmt::format("source: {}\nlicence: {}\nattribution: {}\n", provenance.source, provenance.licence,
                      provenance.attribution) +
          (fitted ? fit_table(report) : "") + (report.measures.empty() ? "" : measures_table(report, output.bytes)) +
-         ink_table(import) + id_table(report) + label_table(report) + skipped_table(report);
+         ink_table(import) + id_table(report) + label_table(report) + corrected_table(report) +
+         skipped_table(report);
 }
 
 std::string json(const ImportResult& import, const ImportOutput& output) {

@@ -28,6 +28,7 @@ struct ValidateArguments {
   std::string file;
   std::string letters;
   std::optional<std::string> only;
+  bool as_drawn = false;
   int threads = 0;
   bool json = false;
 };
@@ -42,6 +43,7 @@ Findings findings(const ValidateArguments& options) {
   ImportOptions asked;
   asked.letters = options.letters;
   if (options.only) asked.only = codes_of(characters_of(*options.only));
+  asked.corrections = !options.as_drawn;
   asked.threads = options.threads;
   asked.ink = InkDetail::none;
   asked.report = !is_own_format(options.file);
@@ -98,6 +100,7 @@ void add_validate(CLI::App& program) {
   command->add_option("FILE", options->file, "Character file, or any source of `import`")->required()->type_name("PATH");
   command->add_option("--letters", options->letters, "Stroke letters for hanzi-writer-data: cnchar-order")
       ->type_name("PATH");
+  add_no_corrections_flag(*command, options->as_drawn);
   command->add_option("--only", options->only, "Check only these characters")->type_name("TEXT");
   command->add_option("--threads", options->threads, "Threads (default: one per core)")
       ->check(integer(1, 256))

@@ -4,5 +4,6 @@
 namespace calligraphy::built_in {
 
 extern const char* const kanjivg_labels;
+extern const char* const order_corrections;
 
 }  // namespace calligraphy::built_in

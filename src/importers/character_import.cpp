@@ -130,6 +130,7 @@ ImportedCharacter imported(const DrawingFile& file, Drawing drawing, const Impor
   result.character.order = file.character.order;
   result.strokes = std::move(fit.strokes);
   result.letters_unused = drawing.letters_unused;
+  result.correction = std::move(drawing.correction);
   result.notice = std::move(drawing.notice);
   if (options.report) measure_import(drawing.strokes, fit.inputs, crossings, result);
   return result;
@@ -141,7 +142,7 @@ ImportResult import_drawings(const std::filesystem::path& path, const ImportOpti
   std::vector<ImportedCharacter> characters(source.files.size());
   std::atomic<int> strokes = 0;
   parallel_for(source.files.size(), options.threads, options.progress, [&](std::size_t i) {
-    Drawing drawing = parse_drawing(source.files[i], letters);
+    Drawing drawing = parse_drawing(source.files[i], letters, options.corrections);
     if ((strokes += static_cast<int>(drawing.strokes.size())) > max_imported_strokes) {
       throw FormatError(path.string() + ": more than " + std::to_string(max_imported_strokes) + " strokes");
     }

@@ -466,6 +466,18 @@ testPage("strokes are shown one after the other to who watches, and no ink is ta
   assert.equal(await progress(tab), "5 strokes");
 });
 
+testPage("a typical stroke is written and judged alone, by its number", { character: "6" }, async (tab) => {
+  assert.equal(await tab.text("#character"), "⑥");
+  await tab.write(parts.strokesOf("⑥", parts.library.set_typical_strokes())[0]);
+  await isWritten(tab);
+  assert.deepEqual((await tab.result()).remarks, []);
+});
+
+testPage("a radical in the address is read as its ideograph, and that is said", { character: "⼀" }, async (tab) => {
+  assert.equal(await tab.text("#character"), "一");
+  assert.match(await progress(tab), /U\+2F00\) is read as 一/);
+});
+
 testPage("other ink and another strength leave what was written", {}, async (tab) => {
   await tab.writeAll(yong.slice(0, 2), { beside: off(0.03) });
   const inks = [];

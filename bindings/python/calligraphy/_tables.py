@@ -39,6 +39,7 @@ def import_report(results: dict[str, Any]) -> dict[str, Any]:
         "measures": table(results["measures"], f"{stroke} {measures}"),
         "ink": np.array(results["ink"]["strokes"]),
         "crossings": tuple(results["crossings"].values()),
+        "corrected": [tuple(each.values()) for each in results["corrected"]],
         "skipped": [tuple(file.values()) for file in results["skipped"]],
     }
 

@@ -34,6 +34,7 @@ struct ImportOptions {
   std::filesystem::path letters;    ///< cnchar-order, whose letters label the strokes of hanzi-writer-data
   bool alternates = false;          ///< also imports KanjiVG's variants, as alternate orders named after their suffix
   bool ideographs_only = true;      ///< omits KanjiVG's kana, Latin letters, radicals and signs
+  bool corrections = true;          ///< corrects stroke orders of Make Me a Hanzi that are known to be wrong
   InkDetail ink = InkDetail::full;  ///< from hanzi-writer-data; `none` also drops that of a set or text file
   std::u32string only;              ///< imports only these characters; empty: all
   std::string date;     ///< date of modification for the notice that the Arphic licence requires; empty: omitted
@@ -145,6 +146,12 @@ struct LabelConfusion {
   StrokeReference example;  ///< one of them
 };
 
+/// A stroke order that was wrong at the source.
+struct OrderCorrected {
+  char32_t code;       ///< Unicode code point of the character
+  std::string reason;  ///< what is written before what, in words
+};
+
 /// A file of a source that was not read.
 struct SkippedFile {
   std::string path;    ///< within the source
@@ -176,6 +183,7 @@ struct ImportReport {
   CrossingCount crossings;               ///< if asked for
   std::vector<LostCrossing> lost_crossings;  ///< if asked for
 
+  std::vector<OrderCorrected> corrected;  ///< by character
   std::vector<SkippedFile> skipped;  ///< by path
   std::vector<std::string> notes;    ///< further information for those who redistribute the characters
 };

@@ -32,6 +32,7 @@ class Counter {
     report_.lost_crossings.insert(report_.lost_crossings.end(), imported.lost_crossings.begin(),
                                   imported.lost_crossings.end());
     if (imported.letters_unused) report_.letters_unused.push_back(character.code);
+    if (!imported.correction.empty()) report_.corrected.push_back({character.code, imported.correction});
     ++report_.characters;
   }
 

@@ -108,6 +108,14 @@ OrderedJson ids_json(const ImportReport& report) {
   return ids;
 }
 
+OrderedJson corrected_json(const ImportReport& report) {
+  OrderedJson rows = OrderedJson::array();
+  for (const OrderCorrected& each : report.corrected) {
+    rows.push_back({{"character", encode_utf8(each.code)}, {"reason", each.reason}});
+  }
+  return rows;
+}
+
 OrderedJson skipped_json(const ImportReport& report) {
   OrderedJson rows = OrderedJson::array();
   for (const auto& [reason, files] : skipped_by_reason(report)) {
@@ -145,6 +153,7 @@ OrderedJson report_json(const ImportResult& import, std::size_t bytes) {
     if (!report.ink.strokes.empty()) all["ink"] = ink_json(import);
   }
   all["ids_used"] = ids_json(report);
+  if (report.kind == SourceKind::hanzi_writer_data) all["corrected"] = corrected_json(report);
   all["skipped"] = skipped_json(report);
   all["notes"] = report.notes;
   return all;

@@ -28,6 +28,7 @@ struct ImportedCharacter {
   CrossingCount crossings;
   std::vector<LostCrossing> lost_crossings;
   bool letters_unused = false;
+  std::string correction;  ///< why the order of the strokes was changed; empty: it was not
   std::string notice;  ///< copyright notice of its file
 };
 

@@ -4,6 +4,7 @@
 
 #include "hanzi_writer.hpp"
 #include "kanjivg.hpp"
+#include "order_corrections.hpp"
 #include "source_files.hpp"
 #include "stroke_labels.hpp"
 
@@ -17,9 +18,10 @@ Drawing pen_drawing(const DrawingFile& file) {
   return drawing;
 }
 
-Drawing brush_drawing(const DrawingFile& file, const StrokeLetters& letters) {
+Drawing brush_drawing(const DrawingFile& file, const StrokeLetters& letters, bool corrections) {
   Drawing drawing;
   drawing.strokes = parse_hanzi_writer(file.text, file.place);
+  if (corrections) drawing.correction = correct_order(file.character.code, drawing.strokes);
   const auto found = letters.find(file.character.code);
   if (found == letters.end()) return drawing;
   drawing.letters_unused = found->second.size() != drawing.strokes.size();
@@ -32,8 +34,8 @@ Drawing brush_drawing(const DrawingFile& file, const StrokeLetters& letters) {
 
 }  // namespace
 
-Drawing parse_drawing(const DrawingFile& file, const StrokeLetters& letters) {
-  return file.character.kind == SourceKind::kanjivg ? pen_drawing(file) : brush_drawing(file, letters);
+Drawing parse_drawing(const DrawingFile& file, const StrokeLetters& letters, bool corrections) {
+  return file.character.kind == SourceKind::kanjivg ? pen_drawing(file) : brush_drawing(file, letters, corrections);
 }
 
 }  // namespace calligraphy

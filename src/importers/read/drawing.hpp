@@ -39,11 +39,12 @@ struct DrawnStroke {
 struct Drawing {
   std::vector<DrawnStroke> strokes;  ///< in writing order
   std::string notice;                ///< the file's own copyright notice
+  std::string correction;            ///< why the order of the strokes was changed; empty: it was not
   bool letters_unused = false;       ///< there are letters for the character, but not one per stroke
 };
 
-/// `letters` label the strokes of hanzi-writer-data.
+/// `corrections`: correct_order(). `letters` label the strokes of hanzi-writer-data.
 /// @throws FormatError naming the place
-Drawing parse_drawing(const DrawingFile& file, const StrokeLetters& letters);
+Drawing parse_drawing(const DrawingFile& file, const StrokeLetters& letters, bool corrections);
 
 }  // namespace calligraphy

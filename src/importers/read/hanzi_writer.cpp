@@ -71,11 +71,9 @@ class Reader {
     } catch (const FormatError& error) {
       fail(place, std::string("path data ") + error.what());
     }
-    for (Point& point : points) point = in_em(point);
+    for (Point& point : points) point = hanzi_writer_em(point);
     return points;
   }
-
-  static Point in_em(const Point& units) { return Point(units.x(), units.y() - baseline) / units_per_em; }
 
   std::vector<Point> median(const Json& value, const std::string& place) const {
     if (!value.is_array() || value.empty()) fail(place, "expected a non-empty array of points");
@@ -95,7 +93,7 @@ class Reader {
     if (units.cwiseAbs().maxCoeff() > max_coordinate) {
       fail(place, "(" + value[0].dump() + ", " + value[1].dump() + ") is more than 8 em from the origin");
     }
-    return in_em(units);
+    return hanzi_writer_em(units);
   }
 
   std::string name_;
@@ -103,6 +101,8 @@ class Reader {
 };
 
 }  // namespace
+
+Point hanzi_writer_em(const Point& units) { return Point(units.x(), units.y() - baseline) / units_per_em; }
 
 std::vector<DrawnStroke> parse_hanzi_writer(std::string_view json, const std::string& name) {
   return Reader(json, name).strokes();

@@ -9,6 +9,9 @@
 
 namespace calligraphy {
 
+/// A point of its drawings [unit] in the unit square, y up.
+Point hanzi_writer_em(const Point& units);
+
 /// The strokes in the file of one character, in writing order: medians, and outlines within 5e-4 em, empty if the file
 /// has none. The file has 1024 units per em and the baseline at -124; the result is in the unit square, y up. `name` is
 /// used in messages.
