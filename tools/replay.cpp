@@ -10,11 +10,13 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/judge/character_index.hpp>
 #include <calligraphy/judge/pen_trace.hpp>
+#include <calligraphy/judge/y_axis.hpp>
 #include <calligraphy/pictures/replay_picture.hpp>
 #include <calligraphy/practice/session.hpp>
 
@@ -42,6 +44,7 @@ struct ReplayArguments {
   RunOutput out;
   std::optional<std::string> only;
   std::string order;
+  std::string y_axis = "auto";
   std::string leniency = "normal";
   std::string device = "simulated:desktop";
   std::string renderer = "default";
@@ -63,12 +66,26 @@ TextCharacter character_in(const PenTrace& trace) {
   return {trace.character, unified(trace.character), trace.selector};
 }
 
-std::vector<Chosen> chosen_traces(const ReplayArguments& options) {
+/// Reads the traces of a file whose y axis points up the right way round.
+void turn_if_up(std::vector<PenTrace>& traces, const ReplayArguments& options, std::vector<std::string>& warnings) {
+  if (options.y_axis == "down") return;
+  if (options.y_axis == "auto") {
+    if (recognise_y_axis(traces) != YAxis::up) return;
+    warnings.push_back(options.traces +
+                       ": y seems to point up, not down as this format wants it, and is read so (--y-axis down: it is not)");
+    spdlog::warn("{}", printable(warnings.back()));
+  }
+  std::for_each(traces.begin(), traces.end(), turn_over);
+}
+
+std::vector<Chosen> chosen_traces(const ReplayArguments& options, std::vector<std::string>& warnings) {
   std::vector<Chosen> chosen;
   int position = 0;
   GzipReader in(options.traces);
-  for (PenTrace& trace : read_pen_traces(in, options.traces)) chosen.push_back({++position, std::move(trace)});
+  std::vector<PenTrace> traces = read_pen_traces(in, options.traces);
   if (in.was_cut_off()) throw FormatError(options.traces + ": the file is truncated");
+  turn_if_up(traces, options, warnings);
+  for (PenTrace& trace : traces) chosen.push_back({++position, std::move(trace)});
   if (options.only) {
     const auto is_there = [&chosen](char32_t code) {
       return std::any_of(chosen.begin(), chosen.end(),
@@ -108,7 +125,7 @@ class ReplayRun {
   }
 
   void replay() {
-    std::vector<Chosen> traces = chosen_traces(options_);
+    std::vector<Chosen> traces = chosen_traces(options_, report_.warnings);
     const std::vector<TextCharacter> written = text_of(traces);
     const CharacterSet set = options_.only ? open_characters(options_.characters, written).set
                                            : open_sources(options_.characters, codes_of(written));
@@ -226,7 +243,8 @@ class ReplayRun {
 
 /// Options that apply only to pen traces.
 constexpr const char* of_traces[] = {"--characters", "--only",         "--order",    "--device",
-                                     "--page",       "--motion-scale", "--renderer", "--recognise"};
+                                     "--page",       "--motion-scale", "--renderer", "--recognise",
+                                     "--y-axis"};
 
 /// Replays a recording, those of a run, or pen traces.
 void replay(const ReplayArguments& options, const CLI::App& command) {
@@ -273,6 +291,11 @@ void add_replay(CLI::App& program) {
                    "Accept only this alternate stroke order, or this source (default: every order and form that the "
                    "sets have)")
       ->type_name("NAME");
+  command
+      ->add_option("--y-axis", options->y_axis,
+                   "Where y of the traces points; auto: as most of them were written, or down if that does not show")
+      ->check(CLI::IsMember({"auto", "up", "down"}))
+      ->capture_default_str();
   command
       ->add_option("--leniency", options->leniency,
                    "How sure or grave a remark must be: strict tells what normal does and more, lenient less")

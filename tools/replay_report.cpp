@@ -226,7 +226,8 @@ nlohmann::ordered_json json(const ReplayReport& report) {
               {"force_step_limit_N", report.max_force_step},
               {"interrupted", report.interrupted},
               {"traces", traces},
-              {"without_template", missing}};
+              {"without_template", missing},
+              {"warnings", report.warnings}};
   for (const Recognised& each : report.recognised) all["recognised"].push_back(json_of(each));
   return all;
 }

@@ -41,6 +41,7 @@ struct ReplayReport {
   std::vector<Recognised> recognised;  ///< if asked for, of every trace
   bool interrupted = false;            ///< there are fewer than were asked for
   std::u32string without_template;     ///< written characters that are not in the set
+  std::vector<std::string> warnings;   ///< of the file as a whole
 };
 
 /// One line per trace, the limits, all remarks in a language, then the totals.

@@ -33,6 +33,7 @@
 #include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/judge/writing_motion.hpp>
+#include <calligraphy/judge/y_axis.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character.hpp>
 #include <calligraphy/model/character_list.hpp>

@@ -1,5 +1,7 @@
 #include <calligraphy/base/text.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 
@@ -11,7 +13,18 @@ namespace calligraphy {
 
 bool is_utf8(std::string_view text) noexcept { return utf8::is_valid(text.begin(), text.end()); }
 
+bool is_utf16(std::string_view text) noexcept {
+  if (text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE")) return true;
+  constexpr std::size_t sample = 64;  // [byte], of letters, digits and signs as every format has them in front
+  if (text.size() < 4) return false;
+  const std::string_view front = text.substr(0, std::min(text.size(), sample) / 2 * 2);
+  std::size_t zeros[2] = {0, 0};
+  for (std::size_t i = 0; i < front.size(); ++i) zeros[i % 2] += front[i] == '\0' ? 1 : 0;
+  return (zeros[0] == 0 || zeros[1] == 0) && 4 * (zeros[0] + zeros[1]) > front.size();
+}
+
 std::u32string decode_utf8(std::string_view text) {
+  if (is_utf16(text)) throw FormatError("text is UTF-16, not UTF-8: save it as UTF-8");
   const auto invalid = utf8::find_invalid(text.begin(), text.end());
   if (invalid != text.end()) {
     throw FormatError("text is not UTF-8: byte " + std::to_string(std::distance(text.begin(), invalid)) +

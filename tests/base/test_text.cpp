@@ -30,6 +30,15 @@ TEST_CASE("code points of one to four bytes are decoded", "[model]") {
   CHECK(decode_utf8("A\xC3\xA9\xE6\xB0\xB8\xF0\xA0\x80\x80") == U"A\u00E9\u6C38\U00020000");
 }
 
+TEST_CASE("UTF-16 is told by its name, with and without a byte order mark", "[model]") {
+  using namespace std::string_literals;
+  for (const std::string& text : {"\xFF\xFE\x38\x6C"s, "\xFE\xFF\x6C\x38"s, "C\0 \0\x38\x6C"s, "\0C\0 \x6C\x38"s}) {
+    CHECK(complaint(text) == "text is UTF-16, not UTF-8: save it as UTF-8");
+  }
+  CHECK_FALSE(is_utf16("永"));
+  CHECK_FALSE(is_utf16("\0\0\0\0"s));
+}
+
 TEST_CASE("encoding undoes decoding over the whole of Unicode", "[model]") {
   int wrong = 0;
   for (char32_t code = 0; code <= 0x10FFFF; code += code < 0x3000 ? 1 : 97) {

@@ -115,6 +115,23 @@ class Replay(ReplayTest):
             kinds = [remark["kind"] for remark in trace["remarks"]]
             self.assertEqual("direction" in kinds, trace["set"] == "backwards", trace)
 
+    def test_a_file_whose_y_points_up_is_told_once_and_judged_the_right_way_round(self):
+        def turned(lines):
+            return [tuple((x, 1000 - y) for x, y in line) for line in lines]
+
+        pupils = [character(code, turned(lines)) for code, lines in
+                  (("十", TEN), ("三", THREE), ("大", [((120, 400), (900, 390)), ((500, 100), (120, 900)),
+                                                    ((500, 400), (880, 900))]))]
+        report = self.replay(*pupils)
+        self.assertEqual([trace["remarks"] for trace in report["traces"]], [[], [], []])
+        told = self.run_program("replay", "pens.txt").stderr
+        self.assertEqual((told.count("y seems to point up"), len(report["warnings"])), (1, 1))
+        left = self.replay(*pupils, options=("--y-axis", "down"))
+        self.assertEqual(left["warnings"], [])
+        self.assertIn("direction", [remark["kind"] for remark in left["traces"][0]["remarks"]])
+        alone = self.replay(pupils[0], options=("--y-axis", "up"))
+        self.assertEqual((alone["warnings"], alone["traces"][0]["remarks"]), ([], []))
+
     def test_another_character_is_told_instead_of_its_strokes(self):
         ((remark,),) = [trace["remarks"] for trace in self.replay(character("二", TEN))["traces"]]
         self.assertEqual((remark["kind"], remark["other_character"]), ("character", "十"))

@@ -152,6 +152,7 @@ class TraceParser : private LineReader {
   bool next_line() {
     while (next_whole()) {
       rest_ = line();
+      if (number() == 1 && is_utf16(rest_)) fail("the file is UTF-16, not UTF-8: save it as UTF-8");
       if (!rest_.empty() && rest_.front() != '#') return true;
     }
     return false;
