@@ -21,6 +21,7 @@ void add_info(CLI::App& program);
 void add_tradeoff(CLI::App& program);
 void add_stability(CLI::App& program);
 void add_import(CLI::App& program);
+void add_traces(CLI::App& program);
 void add_validate(CLI::App& program);
 void add_replay(CLI::App& program);
 void add_devices(CLI::App& program);

@@ -71,6 +71,7 @@ int run(int argc, char** argv) {
   calligraphy::tools::add_tradeoff(program);
   calligraphy::tools::add_stability(program);
   calligraphy::tools::add_import(program);
+  calligraphy::tools::add_traces(program);
   calligraphy::tools::add_validate(program);
   calligraphy::tools::add_replay(program);
   calligraphy::tools::add_devices(program);

@@ -12,7 +12,7 @@ BELOW = {
     "base": [],
     "model": ["base"],
     "judge": ["base", "model"],
-    "importers": ["base", "model"],
+    "importers": ["base", "model", "judge"],
     "devices": ["base"],
     "phantom": ["base", "devices"],
     "openhaptics": ["base", "devices"],

@@ -7,7 +7,7 @@ import unicodedata
 
 from program import ProgramTest
 
-COMMANDS = ["write", "strokes", "info", "tradeoff", "stability", "import", "validate", "replay", "devices", "help",
+COMMANDS = ["write", "strokes", "info", "tradeoff", "stability", "import", "traces", "validate", "replay", "devices", "help",
             "completion"]
 PROFILES = ["omni", "touch", "desktop", "premium-1.5", "ideal"]
 PAGES = [[], *([each] for each in COMMANDS), ["devices", "probe"], ["devices", "profile"], ["devices", "watch"]]
