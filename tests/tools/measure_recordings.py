@@ -19,6 +19,8 @@ import time
 import zlib
 from pathlib import Path
 
+from measure_mutants import measure
+
 #: Starts the program and notes its process.
 SHIM = '#!/bin/sh\necho $$ > "$PID_FILE"\nexec "$PROGRAM" "$@"\n'
 
@@ -91,36 +93,8 @@ def mutate(program, count, draw):
         traces = ("V 2\nC 十 5341 made-up 1000 2 1\nF pressure altitude azimuth twist height buttons\n"
                   "S 2 100 500 0 0.25 1.1 0.7 -2 0 1 900 480 330 0.5 1.1 0.7 -2 - 1\n"
                   "A 1 500 300 600 0 1 1 1 0.01 0\nS 2 500 80 900 0.25 1 1 1 0 33 500 940 1400 - 1 1 1 0 1\n").encode()
-        sources = [whole, plain, traces, gzip.compress(traces)]
-        worst_time, worst_memory, outcomes = 0.0, 0, {}
-        for i in range(count):
-            data = bytearray(sources[i % len(sources)])
-            for _ in range(draw.choice((1, 1, 2, 5, 20))):
-                at = draw.randrange(len(data))
-                kind = draw.randrange(4)
-                if kind == 0:
-                    data[at] = draw.randrange(256)
-                elif kind == 1:
-                    del data[at:at + draw.randrange(1, 40)]
-                elif kind == 2:
-                    data[at:at] = data[draw.randrange(len(data)):][:draw.randrange(1, 200)]
-                else:
-                    data[at:at] = draw.choice((b"9" * 20, b"-1", b"nan", b"inf", b"1e308", b",,,", b"\n", b"\0"))
-                data = data or bytearray(b"x")
-            path = directory / "mutant"
-            path.write_bytes(bytes(data))
-            begun = time.monotonic()
-            running = subprocess.Popen([program, "replay", path, "--json"], stdout=subprocess.DEVNULL,
-                                       stderr=subprocess.DEVNULL)
-            _, status, usage = os.wait4(running.pid, 0)
-            running.returncode = os.waitstatus_to_exitcode(status)
-            worst_time = max(worst_time, time.monotonic() - begun)
-            worst_memory = max(worst_memory, usage.ru_maxrss)
-            outcomes[running.returncode] = outcomes.get(running.returncode, 0) + 1
-            if running.returncode not in (0, 1) or usage.ru_maxrss > 64 * 1024:
-                print(f"mutant {i}: exit {running.returncode}, {usage.ru_maxrss} kB")
-                Path(f"mutant-{i}").write_bytes(bytes(data))
-        print(f"{count} mutants: exit codes {outcomes}, at most {worst_time:.2f} s and {worst_memory / 1024:.0f} MiB")
+        seeds = {"recording.gz": whole, "recording": plain, "traces.txt": traces, "traces.gz": gzip.compress(traces)}
+        measure([str(program), "replay", "{}", "--json"], seeds.items(), count // len(seeds), draw)
 
 
 if __name__ == "__main__":

@@ -460,8 +460,10 @@ class InkmlReader {
     channel.most = number_of(node, "max", not_declared);
     channel.otherwise = number_of(node, "default", 0.0);
     const std::string_view orientation = attribute_of(node, "orientation");
-    channel.is_reversed = orientation == "-ve";
-    if (channel.use == ChannelUse::y && !orientation.empty()) file_.declared = YAxis::down;  // once reversed
+    channel.is_reversed = orientation == "-ve" && channel.use != ChannelUse::y;
+    if (channel.use == ChannelUse::y && !orientation.empty()) {
+      file_.declared = orientation == "-ve" ? YAxis::up : YAxis::down;
+    }
     format.channels.push_back(std::move(channel));
   }
 

@@ -15,6 +15,7 @@ class SignaturePadReader : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit SignaturePadReader(std::string_view name) : name_(name) {
     file_.format = InkFormat::signature_pad;
+    file_.time_unit = 1e-3;  // since 1970
     file_.pressure_is_scaled = true;
     file_.groups.emplace_back();
   }

@@ -13,7 +13,6 @@ class TegakiReader {
   explicit TegakiReader(std::string_view name) : name_(name) {
     file_.format = InkFormat::tegaki;
     file_.time_unit = 1e-3;
-    file_.pressure_is_scaled = false;
   }
 
   InkFile read(pugi::xml_node root) {
