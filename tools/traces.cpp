@@ -154,7 +154,7 @@ void add_traces(CLI::App& program) {
       "Tegaki, an SVC file as of research on handwriting, a CSV table with named columns, or pen traces; its content "
       "tells which. What was assumed is told.");
   command->footer(
-      "calligraphy traces 永.json -o pens.txt    # what it reads: see docs/pen-traces.md\n"
+      "calligraphy traces 永.json -o pens.txt    # see docs/pen-traces.md\n"
       "calligraphy traces lesson.inkml --text 永十 -o pens.txt\n"
       "calligraphy replay pens.txt");
   const auto options = std::make_shared<TracesArguments>();
