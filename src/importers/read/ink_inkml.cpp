@@ -17,6 +17,7 @@ namespace {
 
 constexpr double not_declared = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t max_channels = 64;
+constexpr std::size_t max_contexts = 256;
 
 struct InkUnit {
   std::string_view name;
@@ -165,6 +166,7 @@ class InkmlReader {
   InkFile read(pugi::xml_node root) {
     walk_elements(root, [this](pugi::xml_node node) { note_id(node); }, [](pugi::xml_node) {});
     frames_.push_back({root, {}, label_of(root), no_group, false});
+    default_format_ = child_named(root, "traceFormat");
     walk_elements(root, [this](pugi::xml_node node) { enter(node); }, [this](pugi::xml_node node) { leave(node); });
     if (has_timed_ && has_untimed_) fail("some traces have a unit of time or times, others have none");
     if (has_timed_) file_.time_unit = 1.0;
@@ -399,6 +401,7 @@ class InkmlReader {
     const std::size_t key = context.hash_value();
     const auto found = formats_.find(key);
     if (found != formats_.end()) return found->second;
+    if (formats_.size() >= max_contexts) fail("more than " + std::to_string(max_contexts) + " contexts");
     return formats_.emplace(key, resolved(context)).first->second;
   }
 
@@ -415,7 +418,7 @@ class InkmlReader {
       if (format) return channels_of(format, rate);
       context = referred(attribute_of(context, "contextRef"));
     }
-    if (const pugi::xml_node format = child_named(frames_.front().node, "traceFormat")) return channels_of(format, rate);
+    if (default_format_) return channels_of(default_format_, rate);
     return {{InkChannel{ChannelUse::x}, InkChannel{ChannelUse::y}}, rate};
   }
 
@@ -482,6 +485,7 @@ class InkmlReader {
   std::unordered_map<std::string, Place> runs_;
   std::map<std::size_t, ChannelFormat> formats_;
   std::vector<Frame> frames_;
+  pugi::xml_node default_format_;
   std::size_t traces_ = 0;
   bool has_timed_ = false, has_untimed_ = false;
   bool angle_is_declared_ = false;
