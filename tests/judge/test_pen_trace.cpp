@@ -184,6 +184,7 @@ TEST_CASE("an invalid pen trace is rejected naming the line and the value", "[ju
       {"C 一 4E01 made-up 1000 1\n", "pens.txt:1:", "4E01"},
       {"C \xff 4E00 made-up 1000 1\n", "pens.txt:1:", "UTF-8"},
       {"C 一 4E00 \xff 1000 1\n", "pens.txt:1:", "UTF-8"},
+      {"C 一 4E00 a\rb 1000 1\n", "pens.txt:1:", "carriage return"},  // which could not be written again
       {"\xFF\xFE" "C\n", "pens.txt:1:", "UTF-16"},
       {"C 一 D800 made-up 1000 1\n", "pens.txt:1:", "D800"},
       {"C 一 110000 made-up 1000 1\n", "pens.txt:1:", "110000"},

@@ -195,11 +195,14 @@ class TraceParser : private LineReader {
     trace.character = *code;
     const std::u32string codes = utf8(text, "the character");
     const std::u32string expected = codes.size() == 2 && is_variation_selector(codes[1]) ? codes.substr(0, 1) : codes;
-    if (expected != std::u32string(1, *code)) fail("the character '" + std::string(text) + "' does not match the code " + std::string(hex));
+    if (expected != std::u32string(1, *code)) {
+      fail("the character '" + std::string(text) + "' does not match the code " + std::string(hex));
+    }
     if (codes.size() == 2) trace.selector = codes[1];
     const std::string_view set = next_word("the name of a set");
     utf8(set, "the name of the set");
     trace.set = set;
+    if (trace.set.find('\r') != std::string::npos) fail("the name of the set has a carriage return");
     trace.em = next_number("the em", finest, max_em);
     announced_ = next_count("the number of strokes", max_trace_strokes);
     announced_air_ = 0;
