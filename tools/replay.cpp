@@ -72,7 +72,8 @@ void turn_if_up(std::vector<PenTrace>& traces, const ReplayArguments& options, s
   if (options.y_axis == "auto") {
     if (recognise_y_axis(traces) != YAxis::up) return;
     warnings.push_back(options.traces +
-                       ": y seems to point up, not down as this format wants it, and is read so (--y-axis down: it is not)");
+                       ": y seems to point up, not down as this format wants it, and is read so (--y-axis down: it "
+                       "is not)");
     spdlog::warn("{}", printable(warnings.back()));
   }
   std::for_each(traces.begin(), traces.end(), turn_over);

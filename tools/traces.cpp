@@ -78,15 +78,17 @@ std::string content_of(const std::string& path) {
 }
 
 std::string traces_table(const std::vector<ReadFigures>& files) {
-  std::string text = fmt::format("{:<14}{:>11}{:>9}{:>9}{:>10}{:>10}  {}\n", "format", "characters", "strokes", "samples",
-                                 "time [s]", "rate [Hz]", "file");
+  std::string text = fmt::format("{:<14}{:>11}{:>9}{:>9}{:>10}{:>10}  {}\n", "format", "characters", "strokes",
+                                 "samples", "time [s]", "rate [Hz]", "file");
   for (const ReadFigures& each : files) {
     text += fmt::format("{:<14}{:>11}{:>9}{:>9}{:>10.2f}{:>10.1f}  {}\n", to_string(each.import.format),
                         each.import.traces.size(), each.strokes, each.samples, each.duration, each.rate(),
                         printable(each.file));
   }
   for (const ReadFigures& each : files) {
-    for (const std::string& note : each.import.notes) text += fmt::format("{}: {}\n", printable(each.file), printable(note));
+    for (const std::string& note : each.import.notes) {
+      text += fmt::format("{}: {}\n", printable(each.file), printable(note));
+    }
   }
   return text;
 }
@@ -102,7 +104,7 @@ std::string traces_json(const std::vector<ReadFigures>& files, const std::string
                             {"strokes", each.strokes},
                             {"samples", each.samples},
                             {"duration_s", each.duration},
-                            {"rate_Hz", each.rate() > 0.0 ? nlohmann::ordered_json(each.rate()) : nlohmann::ordered_json()},
+                            {"rate_Hz", each.rate() > 0.0 ? nlohmann::ordered_json(each.rate()) : nullptr},
                             {"notes", each.import.notes}});
   }
   return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -142,7 +144,8 @@ void run(const TracesArguments& options) {
   const std::string text = pen_traces_text(traces, options.notice);
   interrupt.check();
   write_output(options.out, text);
-  fmt::print(to_standard_output ? stderr : stdout, "{}", options.json ? traces_json(files, options.out) : traces_table(files));
+  fmt::print(to_standard_output ? stderr : stdout, "{}",
+             options.json ? traces_json(files, options.out) : traces_table(files));
 }
 
 }  // namespace

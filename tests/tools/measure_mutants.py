@@ -2,8 +2,9 @@
 
 usage: measure_mutants.py PROGRAM COUNT [--seed N] [--most-memory MIB] [--most-time S] -- COMMAND {} ... SEED_FILE ...
 
-{} in the command stands for the damaged file, which has the name of the seed file; every argument after the last {} that
-names a file is a seed, and COUNT mutants are made of each. Kept are those that do not end with 0 or 1, or take too much.
+{} in the command stands for the damaged file, which has the name of the seed file; every argument after the last {}
+that names a file is a seed, and COUNT mutants are made of each. Kept are those that do not end with 0 or 1, or take
+too much.
 
 example: measure_mutants.py calligraphy 20000 -- traces --text 永 -o /dev/null {} pen.svc pen.inkml
 """
@@ -16,7 +17,8 @@ import tempfile
 import time
 from pathlib import Path
 
-PIECES = (b"9" * 20, b"-1", b"nan", b"inf", b"1e308", b",,,", b"\n", b"\0", b"<", b">", b'"', b"[", b"]", b"{", b"'", b"#")
+PIECES = (b"9" * 20, b"-1", b"nan", b"inf", b"1e308", b",,,", b"\n", b"\0", b"<", b">", b'"',
+          b"[", b"]", b"{", b"'", b"#")
 
 
 def damaged(whole, draw):

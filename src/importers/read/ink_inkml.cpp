@@ -24,9 +24,10 @@ struct InkUnit {
   double value;  // [s], [m], [rad] or [N]
 };
 constexpr InkUnit time_units[] = {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"µs", 1e-6}, {"ns", 1e-9}};
-constexpr InkUnit length_units[] = {{"m", 1.0},        {"cm", 1e-2},          {"mm", 1e-3},           {"um", 1e-6},
-                                    {"in", 0.0254},    {"pt", 0.0254 / 72.0}, {"pc", 0.0254 / 6.0},   {"himetric", 1e-5}};
-constexpr InkUnit angle_units[] = {{"rad", 1.0}, {"deg", std::numbers::pi / 180.0}, {"degrees", std::numbers::pi / 180.0}};
+constexpr InkUnit length_units[] = {{"m", 1.0},     {"cm", 1e-2},          {"mm", 1e-3},         {"um", 1e-6},
+                                    {"in", 0.0254}, {"pt", 0.0254 / 72.0}, {"pc", 0.0254 / 6.0}, {"himetric", 1e-5}};
+constexpr InkUnit angle_units[] = {
+    {"rad", 1.0}, {"deg", std::numbers::pi / 180.0}, {"degrees", std::numbers::pi / 180.0}};
 constexpr InkUnit force_units[] = {{"N", 1.0}, {"g", 9.80665e-3}};
 
 template <std::size_t count>

@@ -66,7 +66,9 @@ class SignaturePadReader : public nlohmann::json_sax<nlohmann::json> {
   void open(char level) {
     constexpr std::size_t deepest = 16;
     if (levels_.size() >= deepest) fail("nested too deeply for signature_pad");
-    if (points_level_ > 0 && levels_.size() == points_level_ && level == '[') fail("a point is an array, not an object");
+    if (points_level_ > 0 && levels_.size() == points_level_ && level == '[') {
+      fail("a point is an array, not an object");
+    }
     levels_ += level;
   }
   bool close() {

@@ -56,7 +56,8 @@ InkFile read_svc(std::string_view text, std::string_view name) {
     }
     if (columns == 0) columns = count;
     if (!is_svc_size(count) || count != columns) {
-      in.fail(in_quotes(in.line()) + ": expected " + (columns == svc_least_columns ? "4" : columns == 0 ? "4 or 7" : "7") +
+      in.fail(in_quotes(in.line()) + ": expected " +
+              (columns == svc_least_columns ? "4" : columns == 0 ? "4 or 7" : "7") +
               " numbers: x, y, time, pen" + (columns == svc_least_columns ? "" : ", azimuth, altitude, pressure"));
     }
     if (numbers[3] < 0.0) in.fail("the pen is " + in_quotes(in.line()) + ": expected 0 in the air, 1 on the paper");

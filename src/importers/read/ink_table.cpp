@@ -42,7 +42,8 @@ constexpr std::pair<std::string_view, Role> role_names[] = {
 constexpr std::pair<std::string_view, double> table_units[] = {
     {"s", 1.0},    {"sec", 1.0},  {"seconds", 1.0},   {"ms", 1e-3},     {"msec", 1e-3}, {"milliseconds", 1e-3},
     {"us", 1e-6},  {"µs", 1e-6}, {"microseconds", 1e-6}, {"ns", 1e-9}, {"nanoseconds", 1e-9},
-    {"rad", 1.0},  {"radians", 1.0}, {"deg", per_table_degree}, {"degree", per_table_degree}, {"degrees", per_table_degree},
+    {"rad", 1.0},  {"radians", 1.0}, {"deg", per_table_degree}, {"degree", per_table_degree},
+    {"degrees", per_table_degree},
     {"°", per_table_degree},
 };
 
@@ -250,7 +251,8 @@ class TableReader {
 
   double number_or_nan(Role role) {
     const std::string_view text = field(role);
-    const bool is_absent = text.empty() || text == "-" || text == "nan" || text == "NaN" || text == "NA" || text == "null";
+    const bool is_absent = text.empty() || text == "-" || text == "nan" || text == "NaN" || text == "NA" ||
+                           text == "null";
     return is_absent ? std::numeric_limits<double>::quiet_NaN() : number(role);
   }
 

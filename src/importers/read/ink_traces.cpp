@@ -310,7 +310,8 @@ std::size_t set_characters(const InkFile& file, std::vector<PenTrace>& traces, s
     if (code == 0 && used < options.text.size()) code = options.text[used++];
     if (code == 0 && traces.size() == 1) code = character_in_name(name);
     if (code != 0) continue;
-    const std::string which = traces.size() == 1 ? "what was written" : "which its character " + std::to_string(i + 1) + " is";
+    const std::string which =
+        traces.size() == 1 ? "what was written" : "which its character " + std::to_string(i + 1) + " is";
     fail_ink(name, (label.empty() ? "does not say " + which
                                   : "the label '" + printable(label.substr(0, 40)) + "' is not one character") +
                        ": give the text that was written (--text)");

@@ -14,8 +14,8 @@
 namespace calligraphy {
 namespace {
 
-// Log odds that a y axis points down, for a motion down by an angle from x of 0 to 22.5 degrees, 22.5 to 45 and so on to
-// 180; a motion up counts against it. Logistic regression on every other character of hanzi-writer-data and its mirror
+// Log odds that a y axis points down, for a motion down by an angle from x of 0 to 22.5 degrees, 22.5 to 45 and so on
+// to 180; a motion up counts against it. Logistic regression on every other character of hanzi-writer-data and its mirror
 // image, turned at random by 6 degrees (RMS).
 constexpr std::size_t sectors = 8;
 constexpr std::array<double, sectors> stroke_odds = {-0.2, 0.7, 0.75, 0.9, 0.9, 0.7, 0.1, 0.1};  // first to last point
