@@ -130,7 +130,7 @@ void run(const TracesArguments& options) {
   for (const std::string& in : options.in) {
     interrupt.check();
     InkImport import = import_ink(content_of(in), in, asked);
-    asked.text.erase(0, import.text_used);
+    asked.text.erase(asked.text.begin(), asked.text.begin() + static_cast<std::ptrdiff_t>(import.text_used));
     files.push_back(figures_of(in, std::move(import)));
     for (PenTrace& trace : files.back().import.traces) {
       traces.push_back(std::move(trace));
@@ -139,7 +139,7 @@ void run(const TracesArguments& options) {
   }
   if (!asked.text.empty()) {
     throw UsageError(fmt::format("--text: there are {} more than the files have without a name, from {} on",
-                                 counted(asked.text.size(), "character"), character_label(asked.text.front())));
+                                 counted(asked.text.size(), "character"), character_label(asked.text.front().written)));
   }
   const std::string text = pen_traces_text(traces, options.notice);
   interrupt.check();

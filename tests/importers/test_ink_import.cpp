@@ -173,7 +173,7 @@ TEST_CASE("a table is read by the names of its columns, and a gap in a field is 
 }
 
 TEST_CASE("what was written is from the file, else the text, else the file's name", "[importers]") {
-  const InkOptions text{U"永字", {}, {}};
+  const InkOptions text{text_characters("永字"), {}, {}};
   CHECK(read(pens, "永.txt", text).text_used == 0);
   CHECK(read(inkml, "永.txt", text).traces.at(0).character == U'十');
   const InkImport import = read(svc, "乙.svc", text);

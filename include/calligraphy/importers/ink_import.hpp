@@ -9,6 +9,7 @@
 
 #include <calligraphy/judge/pen_trace.hpp>
 #include <calligraphy/judge/y_axis.hpp>
+#include <calligraphy/model/character_text.hpp>
 
 namespace calligraphy {
 
@@ -27,8 +28,8 @@ const char* to_string(InkFormat format) noexcept;
 
 /// What import_ink() cannot know from the file.
 struct InkOptions {
-  /// The characters that were written, in order, of those that the file does not name.
-  std::u32string text;
+  /// The characters that were written, in order, of those that the file does not name; see text_characters().
+  std::vector<TextCharacter> text;
   /// Where y of the file points. Empty: as the file declares, else as the writing shows (recognise_y_axis()), else as is
   /// usual of the format.
   std::optional<YAxis> y_axis;

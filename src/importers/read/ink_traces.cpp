@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <calligraphy/base/text.hpp>
 
@@ -293,11 +294,13 @@ void turn_as_needed(InkFile& file, std::vector<PenTrace>& traces, const InkOptio
 
 // Characters ----------------------------------------------------------------------------------------------------------
 
-/// 0 if the label is not one character.
-char32_t code_of_label(std::string_view label) {
-  std::u32string codes = decode_utf8(trimmed(label).substr(0, 64));
-  std::erase_if(codes, [](char32_t code) { return (code >= 0xFE00 && code <= 0xFE0F) || code >= 0xE0100; });
-  return codes.size() == 1 && codes[0] > 0x20 && codes[0] != 0x7F ? codes[0] : 0;
+/// Empty if the label is not one character.
+std::optional<TextCharacter> character_of_label(std::string_view label) {
+  label = label.substr(0, 64);
+  if (!is_utf8(label)) return std::nullopt;
+  const std::vector<TextCharacter> characters = text_characters(label);
+  if (characters.size() != 1 || characters[0].written < 0x20 || characters[0].written == 0x7F) return std::nullopt;
+  return characters[0];
 }
 
 std::size_t set_characters(const InkFile& file, std::vector<PenTrace>& traces, std::string_view name,
@@ -305,11 +308,15 @@ std::size_t set_characters(const InkFile& file, std::vector<PenTrace>& traces, s
   std::size_t used = 0;
   for (std::size_t i = 0; i < traces.size(); ++i) {
     const std::string& label = file.groups[i].label;
-    char32_t& code = traces[i].character;
-    code = is_utf8(std::string_view(label).substr(0, 64)) ? code_of_label(label) : 0;
-    if (code == 0 && used < options.text.size()) code = options.text[used++];
-    if (code == 0 && traces.size() == 1) code = character_in_name(name);
-    if (code != 0) continue;
+    std::optional<TextCharacter> character = character_of_label(label);
+    if (!character && used < options.text.size()) character = options.text[used++];
+    if (character) {
+      traces[i].character = character->written;
+      traces[i].selector = character->selector;
+      continue;
+    }
+    if (traces.size() == 1) traces[i].character = character_in_name(name);
+    if (traces[i].character != 0) continue;
     const std::string which =
         traces.size() == 1 ? "what was written" : "which its character " + std::to_string(i + 1) + " is";
     fail_ink(name, (label.empty() ? "does not say " + which
