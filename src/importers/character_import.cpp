@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <fstream>
 #include <numbers>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "base/require.hpp"
 #include "importers/check/import_measures.hpp"
 #include "importers/check/imported_character.hpp"
+#include "importers/fit/brush_stroke_fit.hpp"
 #include "importers/fit/crossings.hpp"
 #include "importers/fit/frechet.hpp"
 #include "importers/fit/ink_fit.hpp"
@@ -41,18 +43,19 @@ bool is_misdirected(const StrokeInput& stroke) {
 
 /// Fits a stroke. Its label decides unless the recognised kind follows the drawing much more closely or, if the label
 /// is doubtful because it may belong to another stroke, just as closely.
-StrokeInput fitted_stroke(const DrawnStroke& drawn, bool doubtful, ImportedStroke& result) {
+StrokeInput fitted_stroke(const DrawnStroke& drawn, const recognition::Outline& outline, bool doubtful,
+                          ImportedStroke& result) {
   constexpr double of_pen = 0.018;     // [em]; a label is not questioned within this distance of the drawing
   constexpr double much_closer = 0.7;  // [1]
-  FittedStroke fitted = fit_stroke(drawn.path, {drawn.outline, drawn.label_ids});
+  FittedStroke fitted = recognition::fit_brush_stroke(drawn.path, outline, drawn.label_ids);
   result.recognised = fitted.recognised;
   result.label = drawn.label;
   result.label_known = !drawn.label_ids.empty();
   result.label_agrees = drawn.allows(result.recognised);
   if (result.label_known && !result.label_agrees) {
     doubtful = doubtful || is_misdirected(fitted.stroke);
-    if (doubtful || fitted.unbent_error > (drawn.outline.empty() ? of_pen : recognition::reach_of_brush)) {
-      FittedStroke shape = fit_stroke(drawn.path, {drawn.outline, {&result.recognised, 1}});
+    if (doubtful || fitted.unbent_error > (outline.empty() ? of_pen : recognition::reach_of_brush)) {
+      FittedStroke shape = recognition::fit_brush_stroke(drawn.path, outline, {&result.recognised, 1});
       const double limit = doubtful ? std::max(of_pen, fitted.unbent_error) : much_closer * fitted.unbent_error;
       if (shape.unbent_error < limit) fitted = std::move(shape);
     }
@@ -69,11 +72,12 @@ struct LabelledFit {
 };
 
 /// @throws FormatError naming the place and the stroke that cannot be fitted
-LabelledFit fit_labelled(const std::vector<DrawnStroke>& drawn, const DrawingFile& file) {
+LabelledFit fit_labelled(const std::vector<DrawnStroke>& drawn, const std::vector<recognition::Outline>& outlines,
+                         const DrawingFile& file) {
   LabelledFit result{std::vector<StrokeInput>(drawn.size()), std::vector<ImportedStroke>(drawn.size())};
   const auto fit_one = [&](std::size_t i, bool doubtful) {
     try {
-      result.inputs[i] = fitted_stroke(drawn[i], doubtful, result.strokes[i]);
+      result.inputs[i] = fitted_stroke(drawn[i], outlines[i], doubtful, result.strokes[i]);
     } catch (const ValueError& error) {
       throw FormatError(file.place + ": stroke " + std::to_string(i + 1) + ": " + error.what());
     }
@@ -108,19 +112,22 @@ std::vector<recognition::CrossingStrokes> keep_crossings(const std::vector<Drawn
 }
 
 /// Adds ink, provided that every stroke has an outline.
-void add_ink(const std::vector<DrawnStroke>& drawn, InkDetail detail, std::vector<StrokeInput>& strokes) {
-  const auto has_outline = [](const DrawnStroke& stroke) { return stroke.outline.size() >= 3; };
-  if (detail == InkDetail::none || !std::all_of(drawn.begin(), drawn.end(), has_outline)) return;
+void add_ink(const std::vector<DrawnStroke>& drawn, const std::vector<recognition::Outline>& outlines,
+             InkDetail detail, std::vector<StrokeInput>& strokes) {
+  const auto is_missing = [](const recognition::Outline& outline) { return outline.empty(); };
+  if (detail == InkDetail::none || std::any_of(outlines.begin(), outlines.end(), is_missing)) return;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    strokes[i].ink = recognition::fit_ink(recognition::flattened(strokes[i]), drawn[i].path, drawn[i].outline, detail);
+    strokes[i].ink = recognition::fit_ink(recognition::flattened(strokes[i]), drawn[i].path, outlines[i], detail);
   }
 }
 
 /// The character made from one drawing.
 ImportedCharacter imported(const DrawingFile& file, Drawing drawing, const ImportOptions& options) {
-  LabelledFit fit = fit_labelled(drawing.strokes, file);
+  std::vector<recognition::Outline> outlines;
+  for (const DrawnStroke& stroke : drawing.strokes) outlines.emplace_back(std::span(stroke.outline));
+  LabelledFit fit = fit_labelled(drawing.strokes, outlines, file);
   const std::vector<recognition::CrossingStrokes> crossings = keep_crossings(drawing.strokes, fit);
-  add_ink(drawing.strokes, options.ink, fit.inputs);
+  add_ink(drawing.strokes, outlines, options.ink, fit.inputs);
   ImportedCharacter result;
   try {
     result.character = make_character(file.character.code, fit.inputs);
@@ -132,7 +139,7 @@ ImportedCharacter imported(const DrawingFile& file, Drawing drawing, const Impor
   result.letters_unused = drawing.letters_unused;
   result.correction = std::move(drawing.correction);
   result.notice = std::move(drawing.notice);
-  if (options.report) measure_import(drawing.strokes, fit.inputs, crossings, result);
+  if (options.report) measure_import(drawing.strokes, outlines, fit.inputs, crossings, result);
   return result;
 }
 

@@ -230,14 +230,14 @@ TEST_CASE("one malformed file fails the import by name, the same one for any num
     char name[16];
     std::snprintf(name, sizeof name, "%05x.svg", static_cast<unsigned>(code));
     const bool faulty = code == 0x4E10 || code >= 0x4E20;
-    directory.write(name, kanjivg({{"㇐", heng}, {"㇐", faulty ? "M1,2L3,4" : heng}}));
+    directory.write(name, kanjivg({{"㇐", heng}, {"㇐", faulty ? "M1,2B3,4" : heng}}));
   }
   ImportOptions options;
   for (const int threads : {1, 2, 8}) {
     options.threads = threads;
     CHECK(complaint(directory.path(), options) ==
           "FormatError " + directory.path().string() +
-              ": 04e10.svg: stroke 2: path data at byte 5: command 'L': expected C or S");
+              ": 04e10.svg: stroke 2: path data at byte 4: command 'B': expected one of M, L, H, V, C, S, Q, T, A and Z");
   }
 }
 

@@ -11,11 +11,13 @@
 
 #include "../catch.hpp"
 #include "../package_data.hpp"
+#include "importers/fit/brush_stroke_fit.hpp"
 #include "importers/read/hanzi_writer.hpp"
 
 namespace hanzi_writer_tests {
 
 using namespace calligraphy;
+using recognition::Outline;
 
 namespace {
 
@@ -32,7 +34,7 @@ std::string complaint(const std::string& text) {
 Character fitted(char32_t code, const std::string& json) {
   std::vector<StrokeInput> strokes;
   for (const DrawnStroke& stroke : parse_hanzi_writer(json, encode_utf8(code) + ".json")) {
-    strokes.push_back(fit_stroke(stroke.path, {.outline = stroke.outline}).stroke);
+    strokes.push_back(recognition::fit_brush_stroke(stroke.path, Outline(std::span(stroke.outline)), {}).stroke);
   }
   return make_character(code, strokes);
 }
@@ -64,7 +66,7 @@ TEST_CASE("outlines are in the frame of the medians, and a file may have none", 
   const auto drawn = parse_hanzi_writer(
       R"({"strokes":["M 0 -124 L 1024 -124 L 1024 900 Z"],"medians":[[[100,400],[900,400]]]})", "x.json");
   REQUIRE(drawn.size() == 1);
-  CHECK(drawn[0].outline == std::vector<Point>{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}});
+  CHECK(drawn[0].outline == std::vector<std::vector<Point>>{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}});
   CHECK(drawn[0].path.size() == 2);
   CHECK(parse_hanzi_writer(R"({"medians":[[[100,400],[900,400]]]})", "x.json")[0].outline.empty());
 }
@@ -98,7 +100,9 @@ TEST_CASE("malformed files are rejected with the file and the place", "[practice
       {R"({"medians":[[[-18446744073709551615,2],[3,4]]]})", "medians[0][0]"},
       {R"({"medians":[[[1,2],[3,4]]],"strokes":[]})", "strokes: expected an array of 1 outlines, as many as medians"},
       {R"({"medians":[[[1,2],[3,4]]],"strokes":[7]})", "strokes[0]: expected the path data"},
-      {R"({"medians":[[[1,2],[3,4]]],"strokes":["M 1 2 H 3"]})", "strokes[0]: path data at byte 7: command 'H'"},
+      {R"({"medians":[[[1,2],[3,4]]],"strokes":["M 1 2 B 3"]})", "strokes[0]: path data at byte 6: command 'B'"},
+      {R"({"medians":[[[1,2],[3,4]]],"strokes":["M 1 2 H 30 V 40"]})", "strokes[0]: path data is not closed"},
+      {R"({"medians":[[[1,2],[3,4]]],"strokes":["M 1 2 H 300 Z"]})", "strokes[0]: the outline has no area"},
       {R"({"medians":[)" + repeated("[[1,2],[300,4]],", 300) + "[[1,2],[300,4]]]}", "medians: more than 256 strokes"},
       {R"({"medians":[[)" + repeated("[1,2],", 10001) + "[1,2]]]}", "medians[0]: more than 10000 points"},
   };

@@ -148,14 +148,40 @@ TEST_CASE("ink of any outline, however unlike its path, is valid", "[ink]") {
   }
 }
 
+TEST_CASE("parts that touch, overlap or nearly do are one outline, whatever lies apart from them", "[ink]") {
+  const Path path{{0.1, 0.5}, {0.9, 0.5}};
+  const auto reversed = [](Path polygon) { return Path(polygon.rbegin(), polygon.rend()); };
+  const Path left = box({0.1, 0.46}, {0.5, 0.54}), right = box({0.5, 0.46}, {0.9, 0.54});
+  const Outline whole(box({0.1, 0.46}, {0.9, 0.54}));
+  const StrokeInk expected = fit_ink(path, path, whole, InkDetail::full);
+  for (const std::vector<Path>& parts : std::vector<std::vector<Path>>{
+           {left, right},
+           {left, box({0.4, 0.46}, {0.9, 0.54})},
+           {left, box({0.5005, 0.46}, {0.9, 0.54})},
+           {box({0.1, 0.46}, {0.9, 0.5}), box({0.3, 0.5}, {0.9, 0.54}), box({0.1, 0.5}, {0.3, 0.54})},
+           {left, box({0.7, 0.8}, {0.8, 0.9}), right},
+           {left, reversed(box({0.2, 0.1}, {0.3, 0.2})), right}}) {
+    const Outline outline{std::span(parts)};
+    CHECK(inscribed_radius(outline, {0.5, 0.5}) == Approx(0.04));
+    CHECK(half_width(path, outline) == Approx(0.04));
+    const StrokeInk ink = fit_ink(path, path, outline, InkDetail::full);
+    for (std::size_t k = 0; k < ink_knot_count; ++k) {
+      CHECK(ink.half_widths[k] == Approx(expected.half_widths[k]).margin(1e-3));
+      CHECK(ink.offsets[k] == Approx(expected.offsets[k]).margin(1e-3));
+    }
+  }
+  const std::vector<Path> ring{box({0.1, 0.1}, {0.9, 0.9}), reversed(box({0.2, 0.2}, {0.8, 0.8}))};
+  CHECK(inscribed_radius(Outline(std::span(ring)), {0.15, 0.5}) == Approx(0.05));
+  CHECK(inscribed_radius(Outline(std::span(ring)), {0.5, 0.5}) == 0.0);
+}
+
 TEST_CASE("contacts are counted between outlines, and kept or new by the gap of the inks", "[ink]") {
   // A bar, one that overlaps it, and one that is 0.02 em above.
-  const std::vector<std::vector<Point>> outlines{box({0.1, 0.4}, {0.9, 0.5}), box({0.4, 0.1}, {0.5, 0.45}),
+  const std::vector<Outline> outlines{box({0.1, 0.4}, {0.9, 0.5}), box({0.4, 0.1}, {0.5, 0.45}),
                                                  box({0.1, 0.52}, {0.9, 0.6})};
-  const std::vector<std::span<const Point>> views(outlines.begin(), outlines.end());
   const InkDisc bar{{0.5, 0.45}, 0.05};
   const auto measured = [&](const InkDisc& second, const InkDisc& third) {
-    return measure_ink(views, std::vector<std::vector<InkDisc>>{{bar}, {second}, {third}});
+    return measure_ink(outlines, std::vector<std::vector<InkDisc>>{{bar}, {second}, {third}});
   };
   const InkMeasures near = measured({{0.5, 0.36}, 0.036}, {{0.5, 0.56}, 0.03});  // gaps of 0.004 and 0.03 em
   CHECK(near.contacts == 1);

@@ -30,18 +30,15 @@ void Bitmap::clear() {
   last_row_ = -1;
 }
 
-void Bitmap::fill(std::span<const Point> polygon) {
-  if (polygon.empty()) return;
-  const auto is_lower = [](const Point& a, const Point& b) { return a.y() < b.y(); };
-  const auto [lowest, highest] = std::minmax_element(polygon.begin(), polygon.end(), is_lower);
-  const int last = row_of(highest->y());
+void Bitmap::fill(const Outline& outline) {
+  if (outline.empty()) return;
+  const Eigen::AlignedBox2d box = box_of(outline);
+  const int last = row_of(box.max().y());
   std::vector<std::pair<double, int>> crossings;  // x, and whether the edge goes up
-  for (int row = row_of(lowest->y()); row <= last; ++row) {
+  for (int row = row_of(box.min().y()); row <= last; ++row) {
     const double y = (row + 0.5) / pixels_per_em_ - beyond_em;
     crossings.clear();
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Point& from = polygon[i];
-      const Point& to = polygon[i + 1 < polygon.size() ? i + 1 : 0];
+    for (const auto& [from, to, is_border] : outline.edges) {
       if ((from.y() <= y) == (to.y() <= y)) continue;
       const double share = (y - from.y()) / (to.y() - from.y());
       crossings.emplace_back(from.x() + share * (to.x() - from.x()), to.y() > from.y() ? 1 : -1);

@@ -3,11 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <calligraphy/model/ink_outline.hpp>
 #include <calligraphy/model/point.hpp>
+
+#include "importers/fit/outline.hpp"
 
 namespace calligraphy::recognition {
 
@@ -17,8 +18,7 @@ class Bitmap {
   explicit Bitmap(int pixels_per_em);
 
   void clear();
-  /// Fills a closed polygon by the nonzero rule.
-  void fill(std::span<const Point> polygon);
+  void fill(const Outline& outline);
   void fill(const InkDisc& disc);
   /// Adds the black pixels of `other`, which has the same resolution.
   void add(const Bitmap& other);

@@ -28,14 +28,13 @@ std::vector<std::vector<InkDisc>> stored_ink(char32_t code, const std::vector<St
 }
 
 /// Measures the ink as stored and, for comparison, ink without offsets and the typical ink of each kind.
-void measure_ink(const std::vector<DrawnStroke>& drawn, const std::vector<recognition::Path>& paths,
-                 std::vector<StrokeInput> strokes, ImportedCharacter& result) {
+void measure_ink(const std::vector<DrawnStroke>& drawn, const std::vector<recognition::Outline>& outlines,
+                 const std::vector<recognition::Path>& paths, std::vector<StrokeInput> strokes,
+                 ImportedCharacter& result) {
   const char32_t code = result.character.code;
-  std::vector<std::span<const Point>> outlines;
-  for (const DrawnStroke& stroke : drawn) outlines.emplace_back(stroke.outline);
   result.ink = recognition::measure_ink(outlines, stored_ink(code, strokes));
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    strokes[i].ink = recognition::fit_ink(paths[i], drawn[i].path, drawn[i].outline, InkDetail::half_widths);
+    strokes[i].ink = recognition::fit_ink(paths[i], drawn[i].path, outlines[i], InkDetail::half_widths);
   }
   result.plain_ink = recognition::measure_ink(outlines, stored_ink(code, strokes));
   for (std::size_t i = 0; i < drawn.size(); ++i) {
@@ -54,7 +53,8 @@ bool contradicts_label(const DrawnStroke& drawn, const ImportedStroke& stroke, i
 
 }  // namespace
 
-void measure_import(const std::vector<DrawnStroke>& drawn, const std::vector<StrokeInput>& strokes,
+void measure_import(const std::vector<DrawnStroke>& drawn, const std::vector<recognition::Outline>& outlines,
+                    const std::vector<StrokeInput>& strokes,
                     const std::vector<recognition::CrossingStrokes>& crossings, ImportedCharacter& result) {
   std::vector<recognition::Path> paths;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
@@ -65,11 +65,10 @@ void measure_import(const std::vector<DrawnStroke>& drawn, const std::vector<Str
     measures.place = {result.character.code, result.character.order, static_cast<int>(i) + 1};
     measures.id = strokes[i].id;
     measures.frechet = stroke.error;
-    const std::vector<Point>& outline = drawn[i].outline;
-    measures.outline_size = outline.empty() ? 0.0 : recognition::box_of(outline).diagonal().norm();
+    measures.outline_size = outlines[i].empty() ? 0.0 : recognition::box_of(outlines[i]).diagonal().norm();
     stroke.contradicts_label = contradicts_label(drawn[i], stroke, strokes[i].id);
   }
-  if (strokes.front().ink) measure_ink(drawn, paths, strokes, result);
+  if (strokes.front().ink) measure_ink(drawn, outlines, paths, strokes, result);
   result.crossings.source = static_cast<int>(crossings.size());
   for (const auto& [one, other, at] : crossings) {
     if (recognition::crossing_of(paths[one], paths[other])) {

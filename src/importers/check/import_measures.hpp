@@ -8,12 +8,14 @@
 
 #include "imported_character.hpp"
 #include "importers/fit/crossings.hpp"
+#include "importers/fit/outline.hpp"
 #include "importers/read/drawing.hpp"
 
 namespace calligraphy {
 
-/// Adds the measures to `result`, whose character is made of `strokes`. `crossings`: those of the drawing.
-void measure_import(const std::vector<DrawnStroke>& drawn, const std::vector<StrokeInput>& strokes,
+/// Adds the measures to `result`, whose character is made of `strokes`. `outlines` and `crossings`: those of the drawing.
+void measure_import(const std::vector<DrawnStroke>& drawn, const std::vector<recognition::Outline>& outlines,
+                    const std::vector<StrokeInput>& strokes,
                     const std::vector<recognition::CrossingStrokes>& crossings, ImportedCharacter& result);
 
 namespace recognition {
@@ -22,8 +24,8 @@ namespace recognition {
 /// Leaves place, id and distance empty.
 StrokeMeasures measure_stroke(std::span<const Point> path, std::span<const Point> source, double half_width);
 
-/// Measures the ink of one character's strokes against their outlines, which are closed polygons.
-InkMeasures measure_ink(std::span<const std::span<const Point>> outlines, std::span<const std::vector<InkDisc>> inks);
+/// Measures the ink of one character's strokes against their outlines.
+InkMeasures measure_ink(std::span<const Outline> outlines, std::span<const std::vector<InkDisc>> inks);
 
 }  // namespace recognition
 }  // namespace calligraphy

@@ -22,15 +22,15 @@ bool segments_cross(const Point& a, const Point& b, const Point& c, const Point&
 }
 
 /// 0 if the outlines overlap.
-double gap_between(std::span<const Point> one, std::span<const Point> other) {
-  if (inscribed_radius(one, other[0]) > 0.0 || inscribed_radius(other, one[0]) > 0.0) return 0.0;
+double gap_between(const Outline& one, const Outline& other) {
+  const auto lies_in = [](const Outline& outline) {
+    return [&](const Point& point) { return inscribed_radius(outline, point) > 0.0; };
+  };
+  if (std::any_of(other.starts.begin(), other.starts.end(), lies_in(one))) return 0.0;
+  if (std::any_of(one.starts.begin(), one.starts.end(), lies_in(other))) return 0.0;
   double squared = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    const Point& a = one[i];
-    const Point& b = one[(i + 1) % one.size()];
-    for (std::size_t k = 0; k < other.size(); ++k) {
-      const Point& c = other[k];
-      const Point& d = other[(k + 1) % other.size()];
+  for (const auto& [a, b, ab_is_border] : one.edges) {
+    for (const auto& [c, d, cd_is_border] : other.edges) {
       if (segments_cross(a, b, c, d)) return 0.0;
       squared = std::min(squared, (nearest_on_segment(c, a, b) - c).squaredNorm());
       squared = std::min(squared, (nearest_on_segment(a, c, d) - a).squaredNorm());
@@ -50,7 +50,7 @@ double gap_between(std::span<const InkDisc> one, std::span<const InkDisc> other)
 
 }  // namespace
 
-InkMeasures measure_ink(std::span<const std::span<const Point>> outlines, std::span<const std::vector<InkDisc>> inks) {
+InkMeasures measure_ink(std::span<const Outline> outlines, std::span<const std::vector<InkDisc>> inks) {
   constexpr int pixels_per_em = 512;
   Bitmap outline(pixels_per_em), ink(pixels_per_em), all_outlines(pixels_per_em), all_ink(pixels_per_em);
   InkMeasures measures;
@@ -66,7 +66,7 @@ InkMeasures measure_ink(std::span<const std::span<const Point>> outlines, std::s
   measures.characters.push_back(intersection_over_union(all_outlines, all_ink));
 
   std::vector<Eigen::AlignedBox2d> boxes;
-  for (const std::span<const Point> each : outlines) boxes.push_back(box_of(each));
+  for (const Outline& each : outlines) boxes.push_back(box_of(each));
   for (std::size_t i = 0; i < outlines.size(); ++i) {
     for (std::size_t k = i + 1; k < outlines.size(); ++k) {
       if (boxes[i].exteriorDistance(boxes[k]) > box_gap) continue;

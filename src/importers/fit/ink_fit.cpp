@@ -77,7 +77,7 @@ Values knot_values(const std::vector<Place>& places, const std::vector<double>& 
 }
 
 /// The initial ink: of the discs that fit into the outline about points of the median or of the path itself.
-StrokeInk first_ink(std::span<const Point> path, std::span<const Point> median, std::span<const Point> outline,
+StrokeInk first_ink(std::span<const Point> path, std::span<const Point> median, const Outline& outline,
                     InkDetail detail) {
   constexpr double spacing = 0.015;  // [em]
   const BrushEnds ends = brush_ends(median, outline, half_width(median, outline));
@@ -98,7 +98,7 @@ StrokeInk first_ink(std::span<const Point> path, std::span<const Point> median, 
 
 class InkFit {
  public:
-  InkFit(std::span<const Point> path, std::span<const Point> outline, const StrokeInk& first, InkDetail detail)
+  InkFit(std::span<const Point> path, const Outline& outline, const StrokeInk& first, InkDetail detail)
       : path_(path), outline_(outline), is_sideways_(detail == InkDetail::full), ink_(first) {}
 
   StrokeInk run() {
@@ -211,28 +211,25 @@ class InkFit {
     constexpr double reach = 0.05;  // [em]
     double ahead = reach, behind = -reach;
     int winding = 0;
-    Point from = outline_.back() - point;
-    double side = direction.x() * from.y() - direction.y() * from.x();
-    for (const Point& vertex : outline_) {
-      const Point to = vertex - point;
+    for (const OutlineEdge& edge : outline_.edges) {
+      const Point from = edge.from - point, to = edge.to - point;
+      const double side = direction.x() * from.y() - direction.y() * from.x();
       const double next = direction.x() * to.y() - direction.y() * to.x();
-      if ((side <= 0.0) != (next <= 0.0)) {
-        const double at = direction.dot(from) + side / (side - next) * direction.dot(to - from);
-        if (at > 0.0) {
-          winding += next > side ? 1 : -1;
-          ahead = std::min(ahead, at);
-        } else {
-          behind = std::max(behind, at);
-        }
+      if ((side <= 0.0) == (next <= 0.0)) continue;
+      const double at = direction.dot(from) + side / (side - next) * direction.dot(to - from);
+      if (at > 0.0) winding += next > side ? 1 : -1;
+      if (!edge.is_border) continue;
+      if (at > 0.0) {
+        ahead = std::min(ahead, at);
+      } else {
+        behind = std::max(behind, at);
       }
-      from = to;
-      side = next;
     }
     return winding != 0 ? ahead : behind;
   }
 
   std::span<const Point> path_;
-  std::span<const Point> outline_;
+  const Outline& outline_;
   bool is_sideways_;
   StrokeInk ink_;
   SampledLine line_;
@@ -244,7 +241,7 @@ class InkFit {
 
 }  // namespace
 
-StrokeInk fit_ink(std::span<const Point> path, std::span<const Point> median, std::span<const Point> outline,
+StrokeInk fit_ink(std::span<const Point> path, std::span<const Point> median, const Outline& outline,
                   InkDetail detail) {
   return InkFit(path, outline, first_ink(path, median, outline, detail), detail).run();
 }

@@ -6,13 +6,13 @@
 #include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/model/stroke_ink.hpp>
 
-#include "polyline.hpp"
+#include "outline.hpp"
 
 namespace calligraphy::recognition {
 
 /// The ink along a path that best covers the outline of a brush stroke. The path is that of the stroke fitted to the
-/// median, the outline a closed polygon of at least three vertices, all in em (docs/strokes.md).
-StrokeInk fit_ink(std::span<const Point> path, std::span<const Point> median, std::span<const Point> outline,
+/// median; the outline is not empty; all are in em (docs/strokes.md).
+StrokeInk fit_ink(std::span<const Point> path, std::span<const Point> median, const Outline& outline,
                   InkDetail detail);
 
 }  // namespace calligraphy::recognition

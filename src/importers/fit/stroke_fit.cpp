@@ -14,6 +14,7 @@
 
 #include "base/require.hpp"
 #include "brush.hpp"
+#include "brush_stroke_fit.hpp"
 #include "control_points.hpp"
 #include "frechet.hpp"
 #include "outline.hpp"
@@ -227,23 +228,23 @@ std::vector<int> in_order(Fit& fit, std::span<const int> ids, std::span<const in
 
 }  // namespace
 
-FittedStroke fit_stroke(std::span<const Point> path, const StrokeFitOptions& options) {
+FittedStroke recognition::fit_brush_stroke(std::span<const Point> path, const Outline& outline,
+                                           std::span<const int> ids) {
   if (path.empty()) throw ValueError("a stroke needs at least one point");
   check(path, "a stroke");
-  check(options.outline, "an outline");
-  for (const int id : options.ids) typical_stroke(id);  // throws if there is none
+  for (const int id : ids) typical_stroke(id);  // throws if there is none
 
   FittedStroke fitted;
-  fitted.half_width = half_width(path, options.outline);
+  fitted.half_width = half_width(path, outline);
   if (path_length(path) < min_path) {
     fitted.stroke = dot_around(path);
     fitted.recognised = fitted.stroke.id;
     fitted.unbent_error = fit_error(fitted.stroke, path, fitted.half_width);
   } else {
-    const bool brush = !options.outline.empty();
+    const bool brush = !outline.empty();
     const std::vector<int> recognised = recognised_ids(path, brush);
-    Fit fit(path, brush_ends(path, options.outline, fitted.half_width));
-    Fit::Attempt best = fit.best(in_order(fit, options.ids, recognised), !options.ids.empty());
+    Fit fit(path, brush_ends(path, outline, fitted.half_width));
+    Fit::Attempt best = fit.best(in_order(fit, ids, recognised), !ids.empty());
     if (best.stroke.control_points.empty()) best.stroke = fit.straight();
     fitted.unbent_error = fit_error(best.stroke, path, fitted.half_width);
     fitted.stroke = fit.bent(std::move(best));
@@ -251,6 +252,11 @@ FittedStroke fit_stroke(std::span<const Point> path, const StrokeFitOptions& opt
   }
   fitted.error = fit_error(fitted.stroke, path, fitted.half_width);
   return fitted;
+}
+
+FittedStroke fit_stroke(std::span<const Point> path, const StrokeFitOptions& options) {
+  check(options.outline, "an outline");
+  return fit_brush_stroke(path, options.outline, options.ids);
 }
 
 }  // namespace calligraphy

@@ -29,7 +29,7 @@ struct DrawingFile {
 
 struct DrawnStroke {
   std::vector<Point> path;         ///< the median of a brush stroke or the line of a pen [em]
-  std::vector<Point> outline;      ///< of a brush stroke; otherwise empty
+  std::vector<std::vector<Point>> outline;  ///< of a brush stroke: polygons that are filled together; otherwise empty
   std::string label;               ///< empty if there is none
   std::span<const int> label_ids;  ///< typical strokes that the label allows
 

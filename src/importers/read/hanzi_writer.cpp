@@ -20,6 +20,21 @@ constexpr double units_per_em = 1024.0;
 constexpr double baseline = -124.0;                    // [unit]
 constexpr double max_coordinate = 8.0 * units_per_em;  // [unit]
 constexpr double outline_tolerance = 5e-4;             // [em]
+constexpr double least_outline_area = 1e-5;            // [em^2]; the smallest of the package has 7e-4
+
+/// Of all polygons, holes included.
+double area_of(const std::vector<std::vector<Point>>& polygons) {
+  double area = 0.0;
+  for (const std::vector<Point>& polygon : polygons) {
+    double twice = 0.0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Point from = polygon[i] - polygon[0], to = polygon[i + 1 < polygon.size() ? i + 1 : 0] - polygon[0];
+      twice += from.x() * to.y() - from.y() * to.x();
+    }
+    area += 0.5 * std::abs(twice);
+  }
+  return area;
+}
 
 /// Parses the JSON text of one character, with messages that name the file and the place.
 class Reader {
@@ -63,16 +78,19 @@ class Reader {
     return std::string(array) + "[" + std::to_string(index) + "]";
   }
 
-  std::vector<Point> outline(const Json& value, const std::string& place) const {
+  std::vector<std::vector<Point>> outline(const Json& value, const std::string& place) const {
     if (!value.is_string()) fail(place, "expected the path data of an outline");
-    std::vector<Point> points;
+    std::vector<std::vector<Point>> polygons;
     try {
-      points = flattened_outline(value.get_ref<const std::string&>(), outline_tolerance * units_per_em);
+      polygons = flattened_outline(value.get_ref<const std::string&>(), outline_tolerance * units_per_em);
     } catch (const FormatError& error) {
       fail(place, std::string("path data ") + error.what());
     }
-    for (Point& point : points) point = hanzi_writer_em(point);
-    return points;
+    for (std::vector<Point>& polygon : polygons) {
+      for (Point& point : polygon) point = hanzi_writer_em(point);
+    }
+    if (area_of(polygons) < least_outline_area) fail(place, "the outline has no area");
+    return polygons;
   }
 
   std::vector<Point> median(const Json& value, const std::string& place) const {

@@ -1,4 +1,4 @@
-// The subsets of SVG path data that centre lines and outlines of strokes use.
+// SVG path data as polylines.
 #pragma once
 
 #include <string_view>
@@ -8,12 +8,22 @@
 
 namespace calligraphy {
 
-/// The curve of M/m, C/c and S/s as a polyline within `tolerance` of it, in the units of the data.
-/// @throws FormatError naming the byte, also for any other command and for a second M
+/// What a path draws from one M to the next.
+struct Subpath {
+  std::vector<Point> points;
+  bool is_closed = false;  ///< by Z, which draws to the first point
+};
+
+/// The subpaths, each a polyline within `tolerance` of it, in the units of the data. Reads all of SVG 2's grammar; arcs
+/// as its notes on implementation have it. An M that draws nothing is left out, unless it is all there is.
+/// @throws FormatError naming the byte
+std::vector<Subpath> flattened(std::string_view data, double tolerance);
+
+/// The only subpath; one that is closed ends where it begins. @throws FormatError as above, also if there are several
 std::vector<Point> flattened_path(std::string_view data, double tolerance);
 
-/// The vertices of one closed curve of M/m, L/l, Q/q, C/c and Z/z as a polygon within `tolerance` of it.
-/// @throws FormatError as above
-std::vector<Point> flattened_outline(std::string_view data, double tolerance);
+/// The closed subpaths as polygons, which SVG fills by the nonzero rule.
+/// @throws FormatError as above, also if a subpath is not closed
+std::vector<std::vector<Point>> flattened_outline(std::string_view data, double tolerance);
 
 }  // namespace calligraphy
