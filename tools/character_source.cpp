@@ -14,6 +14,7 @@
 #include <calligraphy/base/text.hpp>
 
 #include "commands.hpp"
+#include "counted.hpp"
 #include "options.hpp"
 
 namespace calligraphy::tools {
@@ -25,7 +26,9 @@ CharacterSet open_one(const std::string& path, const std::u32string& text) {
   if (!text.empty() && std::filesystem::is_directory(path, failure)) {
     ImportOptions asked;
     asked.only = text;
-    return CharacterSet(import_characters(path, asked).list);
+    ImportResult import = import_characters(path, asked);
+    warn_of_unusable(import.report, path);
+    return CharacterSet(std::move(import.list));
   }
   return CharacterSet::open(path);
 }
@@ -107,6 +110,19 @@ std::u32string each_once(const std::u32string& text) {
     if (codes.find(code) == codes.npos) codes += code;
   }
   return codes;
+}
+
+void warn_of_unusable(const ImportReport& report, const std::string& source) {
+  constexpr std::size_t most = 3;
+  std::size_t count = 0;
+  std::string first;
+  for (const SkippedFile& file : report.skipped) {
+    if (!file.unusable || ++count > most) continue;
+    first += fmt::format("{}{}: {}", first.empty() ? "" : "; ", printable(file.path), file.reason);
+  }
+  if (count == 0) return;
+  spdlog::warn("{}: skipped {}: {}{}", source, counted(count, "unusable file"), first,
+               count > most ? fmt::format("; and {} more", count - most) : "");
 }
 
 std::u32string present(const std::vector<TextCharacter>& text, const std::function<bool(char32_t)>& is_there,

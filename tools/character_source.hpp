@@ -25,6 +25,9 @@ CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32s
 /// As import_characters(). @throws UsageError naming an option that does not apply to this kind of source
 ImportResult import_source(const std::string& source, const ImportOptions& asked);
 
+/// Warns of the unusable files that an import skipped, with the first few.
+void warn_of_unusable(const ImportReport& report, const std::string& source);
+
 /// The characters of `text` that are there, as written or as meant, which is told. Punctuation that is not there is
 /// skipped, and a warning says so.
 /// @throws Error naming all other characters that are not in `place`, and then `advice`, or the punctuation if there is

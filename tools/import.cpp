@@ -42,6 +42,7 @@ struct ImportArguments {
   bool all = false;
   bool as_drawn = false;
   int threads = 0;
+  bool strict = false;
   bool report = false;
   bool json = false;
 };
@@ -85,6 +86,7 @@ ImportResult imported(const ImportArguments& options, const Interrupt& interrupt
   if (options.only) asked.only = codes_of(characters_of(*options.only));
   asked.date = options.date;
   asked.threads = options.threads;
+  asked.strict = options.strict;
   asked.report = options.report;
   Progress progress;
   asked.progress = [&](double share) {
@@ -117,6 +119,7 @@ void run(const ImportArguments& options) {
   check_output(options.out);
   const Interrupt interrupt;
   const ImportResult import = imported(options, interrupt);
+  warn_of_unusable(import.report, options.source);
   if (options.only) tell_of_only(*options.only, import.list, options.source);
   const std::string bytes = encoded(import.list, options);
   interrupt.check();
@@ -131,14 +134,15 @@ void run(const ImportArguments& options) {
 void add_import(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "import",
-      "Convert other collections of characters to typical strokes. SOURCE is hanzi-writer-data or KanjiVG (directory or "
-      "npm tarball), a set file or a file in the text format; its content tells which.");
+      "Convert other collections of characters to typical strokes. SOURCE is hanzi-writer-data, Make Me a Hanzi, animCJK or "
+      "KanjiVG (directory, tarball, zip or one of their files), a set file or a file in the text format; its content tells "
+      "which.");
   command->footer(
       "npm pack hanzi-writer-data@2.0.1    # the source, a .tgz\n"
       "calligraphy import hanzi-writer-data-2.0.1.tgz -o hanzi.set\n"
       "calligraphy import hanzi.set --only 永 --format text -o -    # to edit");
   const auto options = std::make_shared<ImportArguments>();
-  command->add_option("SOURCE", options->source, "Directory, npm tarball, set file or file in the text format")
+  command->add_option("SOURCE", options->source, "Directory, tarball, zip, JSON, SVG, set file or file in the text format")
       ->required()
       ->type_name("PATH");
   add_out_file(*command, options->out);
@@ -174,6 +178,8 @@ void add_import(CLI::App& program) {
   command->add_option("--threads", options->threads, "Threads (default: one per core)")
       ->check(integer(1, 256))
       ->type_name("N");
+  command->add_flag("--strict", options->strict, "Fail at the first unusable file, instead of skipping it")
+      ->disable_flag_override();
   command->add_flag("--report", options->report, "Also measure every stroke against its source; docs/strokes.md")
       ->disable_flag_override();
   command->add_flag("--json", options->json, "Print the report as JSON")->disable_flag_override();

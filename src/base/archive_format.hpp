@@ -13,7 +13,7 @@ inline constexpr std::size_t archive_start = 262;
 inline std::string_view archive_format(std::string_view start) noexcept {
   constexpr std::string_view tar = "ustar";
   if (start.starts_with("\x1F\x8B")) return "gzip";
-  if (start.starts_with("PK\x03\x04")) return "zip";
+  if (start.starts_with("PK\x03\x04") || start.starts_with("PK\x05\x06")) return "zip";  // the latter is empty
   const bool is_tar = start.size() >= archive_start && start.substr(archive_start - tar.size(), tar.size()) == tar;
   return is_tar ? "tar" : "";
 }

@@ -27,6 +27,7 @@
 #include "importers/fit/ink_fit.hpp"
 #include "importers/fit/outline.hpp"
 #include "importers/read/drawing_source.hpp"
+#include "importers/read/file_name.hpp"
 #include "importers/read/stroke_letters.hpp"
 
 namespace calligraphy {
@@ -88,7 +89,7 @@ LabelledFit fit_labelled(const std::vector<DrawnStroke>& drawn, const std::vecto
   // are doubtful.
   constexpr std::ptrdiff_t many = 5;  // in the right order there are up to four
   const auto is_contradicted = [](const ImportedStroke& stroke) { return stroke.label_known && !stroke.label_agrees; };
-  const bool has_letters = file.character.kind == SourceKind::hanzi_writer_data;
+  const bool has_letters = file.form != DrawingForm::kanjivg;
   if (!has_letters || std::count_if(result.strokes.begin(), result.strokes.end(), is_contradicted) < many) {
     return result;
   }
@@ -143,18 +144,51 @@ ImportedCharacter imported(const DrawingFile& file, Drawing drawing, const Impor
   return result;
 }
 
+/// What was made of one file.
+struct FileResult {
+  ImportedCharacter character;
+  std::string problem;  ///< message of the error if it is unusable
+};
+
+/// Moves the usable characters; the others become skipped files.
+/// @throws FormatError for the first file if none is usable
+std::vector<ImportedCharacter> usable_of(std::vector<FileResult>& results, DrawingSource& source) {
+  std::vector<ImportedCharacter> characters;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const std::string& problem = results[i].problem;
+    if (problem.empty()) {
+      characters.push_back(std::move(results[i].character));
+      continue;
+    }
+    const std::string place = source.files[i].place + ": ";
+    source.skipped.push_back(
+        {source.files[i].path, problem.starts_with(place) ? problem.substr(place.size()) : problem, true});
+  }
+  if (characters.empty()) throw FormatError(results.front().problem);
+  std::stable_sort(source.skipped.begin(), source.skipped.end(),
+                   [](const SkippedFile& a, const SkippedFile& b) { return a.path < b.path; });
+  return characters;
+}
+
 ImportResult import_drawings(const std::filesystem::path& path, const ImportOptions& options) {
   const StrokeLetters letters = options.letters.empty() ? StrokeLetters() : read_stroke_letters(options.letters);
   DrawingSource source = read_drawings(path, options);
-  std::vector<ImportedCharacter> characters(source.files.size());
+  std::vector<FileResult> results(source.files.size());
   std::atomic<int> strokes = 0;
   parallel_for(source.files.size(), options.threads, options.progress, [&](std::size_t i) {
-    Drawing drawing = parse_drawing(source.files[i], letters, options.corrections);
-    if ((strokes += static_cast<int>(drawing.strokes.size())) > max_imported_strokes) {
+    try {
+      Drawing drawing = parse_drawing(source.files[i], letters, options.corrections);
+      strokes += static_cast<int>(drawing.strokes.size());
+      if (strokes <= max_imported_strokes) results[i].character = imported(source.files[i], std::move(drawing), options);
+    } catch (const FormatError& error) {
+      if (options.strict) throw;
+      results[i].problem = error.what();
+    }
+    if (strokes > max_imported_strokes) {
       throw FormatError(path.string() + ": more than " + std::to_string(max_imported_strokes) + " strokes");
     }
-    characters[i] = imported(source.files[i], std::move(drawing), options);
   });
+  std::vector<ImportedCharacter> characters = usable_of(results, source);
   ImportResult result{{}, report_of(source.kind, characters)};
   result.list.provenance = provenance(source, options, characters.front().notice, result.report.notes);
   result.report.skipped = std::move(source.skipped);
@@ -193,12 +227,14 @@ void check(const ImportOptions& options) {
 bool is_own_format(const std::filesystem::path& source) {
   std::error_code failure;
   if (!std::filesystem::is_regular_file(source, failure)) return false;
+  if (parse_file_name(source.filename().string()).form != FileForm::none) return false;
   std::ifstream in(source, std::ios::binary);
   std::string start(archive_start, '\0');
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
   start.resize(static_cast<std::size_t>(in.gcount()));
-  const std::string_view archive = archive_format(start);
-  return archive != "gzip" && archive != "tar";
+  if (!archive_format(start).empty()) return false;
+  const std::size_t first = start.find_first_not_of(" \t\r\n", start.starts_with("\xEF\xBB\xBF") ? 3 : 0);
+  return first == start.npos || (start[first] != '{' && start[first] != '<');
 }
 
 ImportResult import_characters(const std::filesystem::path& source, const ImportOptions& options) {

@@ -224,7 +224,8 @@ TEST_CASE("an import states its source, its licence and that it was modified", "
   CHECK(found.licence_text == " Copyright U. Apel ");
 }
 
-TEST_CASE("one malformed file fails the import by name, the same one for any number of threads", "[practice]") {
+TEST_CASE("unusable files are skipped with the reason, or the first fails a strict import, for any number of threads",
+          "[practice]") {
   const TemporaryDirectory directory;
   for (int code = 0x4E00; code < 0x4E40; ++code) {
     char name[16];
@@ -232,13 +233,106 @@ TEST_CASE("one malformed file fails the import by name, the same one for any num
     const bool faulty = code == 0x4E10 || code >= 0x4E20;
     directory.write(name, kanjivg({{"㇐", heng}, {"㇐", faulty ? "M1,2B3,4" : heng}}));
   }
+  const std::string reason = "stroke 2: path data at byte 4: command 'B': expected one of M, L, H, V, C, S, Q, T, A and Z";
   ImportOptions options;
   for (const int threads : {1, 2, 8}) {
     options.threads = threads;
+    options.strict = false;
+    const ImportResult import = import_characters(directory.path(), options);
+    CHECK(import.list.characters.size() == 31);
+    CHECK(import.report.characters == 31);
+    REQUIRE(import.report.skipped.size() == 33);
+    CHECK(import.report.skipped[0].path == "04e10.svg");
+    CHECK(import.report.skipped[0].reason == reason);
+    CHECK(import.report.skipped[0].unusable);
+    options.strict = true;
     CHECK(complaint(directory.path(), options) ==
-          "FormatError " + directory.path().string() +
-              ": 04e10.svg: stroke 2: path data at byte 4: command 'B': expected one of M, L, H, V, C, S, Q, T, A and Z");
+          "FormatError " + directory.path().string() + ": 04e10.svg: " + reason);
   }
+  const TemporaryDirectory useless;
+  useless.write("一.json", "{}");
+  useless.write("二.json", "{");
+  CHECK(complaint(useless.path()) == "FormatError " + useless.path().string() + ": 一.json: medians: missing");
+}
+
+TEST_CASE("a character is named in many ways, and a name that the file contradicts makes it unusable", "[practice]") {
+  const std::string named = R"({"character":"一","medians":[[[100,400],[900,400]]]})";
+  for (const char* const name : {"%E4%B8%80.json", "19968.json", "U+4E00.json", "u4e00.json", "4e00.json", "04e00.json"}) {
+    INFO(name);
+    const TemporaryDirectory directory;
+    directory.write(name, hanzi_writer_heng);
+    for (const std::filesystem::path& source : {directory.path(), directory.path() / name}) {
+      const ImportResult import = import_characters(source);
+      REQUIRE(import.list.characters.size() == 1);
+      CHECK(import.list.characters[0].code == U'一');
+    }
+  }
+  const TemporaryDirectory directory;
+  directory.write("a/data.json", named);
+  directory.write("b/二.json", named);
+  directory.write("c/一.json", named);
+  directory.write("d/other.json", R"({"name":"x"})");
+  const ImportResult import = import_characters(directory.path());
+  CHECK(import.list.characters.size() == 1);
+  REQUIRE(import.report.skipped.size() == 3);
+  CHECK(import.report.skipped[0].reason == "character: 一 (U+4E00), but its name says 二 (U+4E8C)");
+  CHECK(import.report.skipped[0].unusable);
+  CHECK(import.report.skipped[1].reason == "a duplicate of an earlier file");
+  CHECK_FALSE(import.report.skipped[1].unusable);
+  CHECK(import.report.skipped[2].reason == "not a character file");
+  directory.write("e/04e00.svg", kanjivg({{"㇐", heng}}));
+  CHECK(import_characters(directory.path() / "e" / "04e00.svg").report.kind == SourceKind::kanjivg);
+}
+
+TEST_CASE("a file with a character a line is read line by line", "[practice]") {
+  const auto line = [](const std::string& character, const std::string& point) {
+    return R"({"character":")" + character + R"(","medians":[[[100,400],)" + point + "]]}\n";
+  };
+  const TemporaryDirectory directory;
+  directory.write("graphics.txt", line("二", "[900,400]") + "\n" + line("一", "[900,400]") + line("十", "[900]") + "{\n" +
+                                      line("三三", "[900,400]"));
+  directory.write("dictionary.txt", "{}");
+  const ImportResult import = import_characters(directory.path());
+  CHECK(import.report.kind == SourceKind::make_me_a_hanzi);
+  REQUIRE(import.list.characters.size() == 2);
+  CHECK(import.list.characters[0].code == U'一');
+  REQUIRE(import.report.skipped.size() == 4);
+  CHECK(import.report.skipped[1].path == "graphics.txt: line 4");
+  CHECK(import.report.skipped[1].reason == "medians[0][1]: expected two finite numbers");
+  CHECK(has(import.report.skipped[2].reason, "not JSON"));
+  CHECK(has(import.report.skipped[3].reason, "expected one character"));
+  CHECK(text_of(import_characters(directory.path() / "graphics.txt").list) == text_of(import.list));
+  directory.write("graphicsJa.txt", line("一", "[900,400]"));
+  CHECK(import_characters(directory.path() / "graphicsJa.txt").report.kind == SourceKind::anim_cjk);
+  CHECK(has(complaint(directory.path()), "both Make Me a Hanzi and animCJK"));
+}
+
+TEST_CASE("animCJK is in the frame of hanzi-writer-data, and the parts of its strokes belong together", "[practice]") {
+  const std::string first = R"svg(<path id="z19968d1a" d="M100 476L600 476L600 516L100 516Z"/>)svg";
+  const std::string second = R"svg(<path id="z19968d1b" d="M900 476L500 476L500 516L900 516Z"/>)svg";  // the other way round
+  const std::string medians = R"svg(<path clip-path="url(#z19968c1a)" d="M110 496 890 496"/>
+      <path clip-path="url(#z19968c1b)" d="M-110 496 890 496"/>)svg";
+  const std::string head = R"(<!-- Copyright --><svg id="z19968" viewBox="0 0 1024 1024">)";
+  const TemporaryDirectory animated, plain;
+  animated.write("svgsJa/19968.svg", head + first + second + medians + "</svg>");
+  plain.write("一.json", R"({"strokes":["M100 424L900 424L900 384L100 384Z"],"medians":[[[110,404],[890,404]]]})");
+  const ImportResult import = import_characters(animated.path());
+  CHECK(import.report.kind == SourceKind::anim_cjk);
+  CHECK(import.list.provenance.licence_text == " Copyright ");
+  const Character found = import.list.characters.at(0), expected = import_characters(plain.path()).list.characters.at(0);
+  REQUIRE(found.stroke_count() == 1);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK((found.structure.control_points[i] - expected.structure.control_points[i]).norm() < 1e-9);
+  }
+  for (std::size_t k = 0; k < ink_knot_count; ++k) {
+    CHECK(found.physics.ink.at(0).half_widths[k] == Approx(expected.physics.ink.at(0).half_widths[k]).margin(1e-3));
+  }
+  animated.write("svgsJa/19977.svg", head + first + "</svg>");
+  animated.write("svgsJa/19978.svg", R"(<svg id="z19978" viewBox="0 0 1024 1024">)" + first + "</svg>");
+  const std::vector<SkippedFile> skipped = import_characters(animated.path()).report.skipped;
+  REQUIRE(skipped.size() == 2);
+  CHECK(has(skipped[0].reason, "its name says 三 (U+4E09)"));
+  CHECK(has(skipped[1].reason, "stroke 1: has no median"));
 }
 
 TEST_CASE("import options outside their domain are rejected by name", "[practice]") {

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string take_all(std::string_view) { return {}; }
+FilePlan take_all(std::string_view) { return {}; }
 
 std::string complaint(const fs::path& source, const SourceLimits& limits = {}) {
   try {
@@ -42,7 +42,7 @@ TEST_CASE("files of a directory are read by path, byte for byte, and skipped one
   directory.write("b/1.txt", "");
   directory.write("c.txt", "no");
   const SourceFiles found = read_source(
-      directory.path(), [](std::string_view path) { return path == "c.txt" ? std::string("why") : std::string(); });
+      directory.path(), [](std::string_view path) { return FilePlan{path == "c.txt" ? "why" : ""}; });
   REQUIRE(found.files.size() == 3);
   CHECK(found.files[0].path == "a.txt");
   CHECK(found.files[0].text == binary);

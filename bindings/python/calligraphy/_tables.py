@@ -40,7 +40,8 @@ def import_report(results: dict[str, Any]) -> dict[str, Any]:
         "ink": np.array(results["ink"]["strokes"]),
         "crossings": tuple(results["crossings"].values()),
         "corrected": [tuple(each.values()) for each in results["corrected"]],
-        "skipped": [tuple(file.values()) for file in results["skipped"]],
+        "skipped": [(file["path"], file["reason"]) for file in results["skipped"]],
+        "unusable": [(file["path"], file["reason"]) for file in results["skipped"] if file["unusable"]],
     }
 
 

@@ -216,10 +216,11 @@ void add_practice(py::module_& module) {
       "import_characters",
       [](const std::filesystem::path& source, const std::optional<std::filesystem::path>& letters,
          const std::u32string& only, bool alternates, bool ideographs_only, const std::string& date, int threads,
-         bool report, const Progress& progress, InkDetail ink, bool corrections) {
+         bool report, const Progress& progress, InkDetail ink, bool corrections,
+         bool strict) {
         // Optional, because an empty C++ path would become "." in Python.
         const ImportOptions options = {
-            letters.value_or(""),   alternates, ideographs_only, corrections, ink, only, date, threads, report, {},
+            letters.value_or(""), alternates, ideographs_only, corrections, ink, only, date, threads, strict, report, {},
             interruptible(progress)};
         ImportResult imported = released(&import_characters)(source, options);
         return py::typing::Tuple<CharacterList, py::dict>(
@@ -227,10 +228,11 @@ void add_practice(py::module_& module) {
       },
       "source"_a, "letters"_a = py::none(), "only"_a = std::u32string(), "alternates"_a = false,
       "ideographs_only"_a = true, "date"_a = "", "threads"_a = 0, "report"_a = false, "progress"_a = py::none(),
-      "ink"_a = InkDetail::full, "corrections"_a = true,
+      "ink"_a = InkDetail::full, "corrections"_a = true, "strict"_a = false,
       "+ Returns a CharacterList and a report (docs/import.md): a dict, with the tables `within`, `worst` and "
-      "`measures` as structured arrays, `ids_used` by id, `crossings` in the source and kept, and `ink`, for each "
-      "stroke intersection over union with its outline.");
+      "`measures` as structured arrays, `ids_used` by id, `crossings` in the source and kept, `ink`, for each "
+      "stroke intersection over union with its outline, and the files that were `skipped`, with the reason; `unusable` "
+      "has those of them that are malformed, for which `strict` raises FormatError.");
 }
 
 }  // namespace calligraphy::python

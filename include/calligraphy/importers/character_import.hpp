@@ -18,6 +18,7 @@ namespace calligraphy {
 struct SourceLimits {
   std::size_t entries = 200'000;         ///< number of files, directories and links
   std::size_t entry_bytes = 1 << 20;     ///< size of one file that is read [byte]
+  std::size_t list_bytes = 64u << 20;    ///< size of one file with a character a line, as graphics.txt [byte]
   std::size_t total_bytes = 256u << 20;  ///< total size, unpacked, skipped files included [byte]
   double unpacked_to_packed = 100.0;     ///< ratio of sizes, checked once 16 MiB are unpacked [1]
 };
@@ -39,6 +40,7 @@ struct ImportOptions {
   std::u32string only;              ///< imports only these characters; empty: all
   std::string date;     ///< date of modification for the notice that the Arphic licence requires; empty: omitted
   int threads = 0;      ///< 0: one per core; the result does not depend on it
+  bool strict = false;  ///< one unusable file fails the import; otherwise it is skipped: ImportReport::skipped
   bool report = false;  ///< also measures every stroke against its source, before rounding: ImportReport::measures
   SourceLimits limits;  ///< a source that exceeds one is rejected
   std::function<void(double)> progress;  ///< called with the fraction done, in the calling thread
@@ -48,10 +50,12 @@ struct ImportOptions {
 enum class SourceKind {
   hanzi_writer_data,  ///< outlines and medians of brush strokes
   kanjivg,            ///< lines of a pen, with labels
+  make_me_a_hanzi,    ///< graphics.txt, of which hanzi-writer-data is made
+  anim_cjk,           ///< the same, with Japanese and Korean forms too
   calligraphy         ///< a set file or the text format
 };
 
-/// "hanzi-writer-data", "KanjiVG", "calligraphy".
+/// "hanzi-writer-data", "KanjiVG", "Make Me a Hanzi", "animCJK", "calligraphy".
 const char* to_string(SourceKind kind) noexcept;
 
 /// Identifies an imported stroke.
@@ -152,10 +156,11 @@ struct OrderCorrected {
   std::string reason;  ///< what is written before what, in words
 };
 
-/// A file of a source that was not read.
+/// A file of a source that was not imported.
 struct SkippedFile {
-  std::string path;    ///< within the source
-  std::string reason;  ///< in words
+  std::string path;       ///< within the source, followed by the line if it has a character a line
+  std::string reason;     ///< in words
+  bool unusable = false;  ///< it is malformed, or contradicts its name; otherwise it was not asked for
 };
 
 /// What an import found.
@@ -194,15 +199,16 @@ struct ImportResult {
   ImportReport report;  ///< what the import found
 };
 
-/// True for a regular file that import_characters() reads as a set file or the text format: any but a tarball.
+/// True for a regular file that import_characters() reads as a set file or the text format: no archive, JSON or SVG.
 bool is_own_format(const std::filesystem::path& source);
 
-/// Imports hanzi-writer-data or KanjiVG (as a directory or an npm tarball), a set file or the text format; the kind is
-/// detected from the content. A label or letter decides on the typical stroke, unless the one recognised by geometry
-/// alone follows the drawing much more closely or the label is another stroke's (docs/import.md).
-/// @throws FileError if the source cannot be read; FormatError naming the file and the place if anything in it is
-///         malformed or exceeds the limits; ValueError for options outside their domain, or without effect on a source
-///         of this kind. An import never succeeds in part.
+/// Imports hanzi-writer-data, Make Me a Hanzi, animCJK or KanjiVG (a directory, a tarball, a zip, or one of their files),
+/// a set file or the text format; the kind is detected from the content. A label or letter decides on the typical
+/// stroke, unless the one recognised by geometry alone follows the drawing much more closely or the label is another
+/// stroke's (docs/import.md). A file that is malformed is skipped, unless ImportOptions::strict is set.
+/// @throws FileError if the source cannot be read; FormatError if it is damaged or exceeds the limits, or naming the
+///         file and the place if none is usable; ValueError for options outside their domain, or without effect on a
+///         source of this kind
 ImportResult import_characters(const std::filesystem::path& source, const ImportOptions& options = {});
 
 }  // namespace calligraphy

@@ -53,9 +53,11 @@ double bytes_per_character(const ImportReport& report, std::size_t bytes) {
   return report.characters == 0 ? 0.0 : static_cast<double>(bytes) / report.characters;
 }
 
-std::map<std::string, std::vector<std::string>> skipped_by_reason(const ImportReport& report) {
+std::map<std::string, std::vector<std::string>> skipped_by_reason(const ImportReport& report, bool unusable) {
   std::map<std::string, std::vector<std::string>> reasons;
-  for (const SkippedFile& file : report.skipped) reasons[file.reason].push_back(file.path);
+  for (const SkippedFile& file : report.skipped) {
+    if (file.unusable == unusable) reasons[file.reason].push_back(file.path);
+  }
   return reasons;
 }
 

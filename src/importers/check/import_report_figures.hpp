@@ -29,7 +29,7 @@ int count_of(const ImportReport& report, LabelResolution resolution);
 double bytes_per_character(const ImportReport& report, std::size_t bytes);
 
 /// Paths of skipped files, by reason.
-std::map<std::string, std::vector<std::string>> skipped_by_reason(const ImportReport& report);
+std::map<std::string, std::vector<std::string>> skipped_by_reason(const ImportReport& report, bool unusable);
 
 /// What ink of one detail costs in a set file at standard precision, and how well it covers the outlines.
 struct InkFigures {

@@ -118,8 +118,10 @@ OrderedJson corrected_json(const ImportReport& report) {
 
 OrderedJson skipped_json(const ImportReport& report) {
   OrderedJson rows = OrderedJson::array();
-  for (const auto& [reason, files] : skipped_by_reason(report)) {
-    rows.push_back({{"reason", reason}, {"count", files.size()}, {"files", files}});
+  for (const bool unusable : {false, true}) {
+    for (const auto& [reason, files] : skipped_by_reason(report, unusable)) {
+      rows.push_back({{"reason", reason}, {"unusable", unusable}, {"count", files.size()}, {"files", files}});
+    }
   }
   return rows;
 }

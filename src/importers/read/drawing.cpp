@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "anim_cjk.hpp"
 #include "hanzi_writer.hpp"
 #include "kanjivg.hpp"
 #include "order_corrections.hpp"
@@ -20,8 +21,13 @@ Drawing pen_drawing(const DrawingFile& file) {
 
 Drawing brush_drawing(const DrawingFile& file, const StrokeLetters& letters, bool corrections) {
   Drawing drawing;
-  drawing.strokes = parse_hanzi_writer(file.text, file.place);
-  if (corrections) drawing.correction = correct_order(file.character.code, drawing.strokes);
+  if (file.form == DrawingForm::anim_cjk) {
+    drawing = parse_anim_cjk(file.text, file.place);
+    drawing.notice = with_plain_line_ends(drawing.notice, file.place);
+  } else {
+    drawing.strokes = parse_hanzi_writer(file.text, file.place);
+    if (corrections) drawing.correction = correct_order(file.character.code, drawing.strokes);
+  }
   const auto found = letters.find(file.character.code);
   if (found == letters.end()) return drawing;
   drawing.letters_unused = found->second.size() != drawing.strokes.size();
@@ -35,7 +41,7 @@ Drawing brush_drawing(const DrawingFile& file, const StrokeLetters& letters, boo
 }  // namespace
 
 Drawing parse_drawing(const DrawingFile& file, const StrokeLetters& letters, bool corrections) {
-  return file.character.kind == SourceKind::kanjivg ? pen_drawing(file) : brush_drawing(file, letters, corrections);
+  return file.form == DrawingForm::kanjivg ? pen_drawing(file) : brush_drawing(file, letters, corrections);
 }
 
 }  // namespace calligraphy

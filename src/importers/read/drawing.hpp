@@ -13,16 +13,20 @@
 
 namespace calligraphy {
 
-/// The character that a file draws, according to its name.
+/// The character that a file draws, according to its name or to itself.
 struct CharacterFile {
   SourceKind kind;
   char32_t code;
   std::string order;  ///< empty for the standard one
 };
 
-/// One file of a source.
+enum class DrawingForm { hanzi_writer, kanjivg, anim_cjk };
+
+/// One file of a source, or one line of a file that has a character a line.
 struct DrawingFile {
   CharacterFile character;
+  DrawingForm form;
+  std::string path;   ///< within the source, with the line if there are several
   std::string place;  ///< for messages: source and path
   std::string text;
 };

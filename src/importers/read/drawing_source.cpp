@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
+#include <functional>
 #include <initializer_list>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -16,8 +18,11 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 
+#include "anim_cjk.hpp"
 #include "base/charconv.hpp"
 #include "base/enum_name.hpp"
+#include "file_name.hpp"
+#include "hanzi_writer.hpp"
 #include "source_files.hpp"
 
 namespace calligraphy {
@@ -25,47 +30,6 @@ namespace {
 
 constexpr std::string_view licence_file = "ARPHICPL.TXT";
 constexpr std::string_view package_file = "package.json";
-
-constexpr std::size_t max_order = 64;  // [byte]
-
-bool is_word(std::string_view text) {
-  return !text.empty() && text.size() <= max_order && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-  });
-}
-
-/// 04e86.svg or 04e86-Kaisho.svg.
-std::optional<CharacterFile> kanjivg_name(std::string_view stem) {
-  constexpr std::size_t digits = 5;
-  unsigned code = 0;
-  if (stem.size() < digits) return std::nullopt;
-  const char* const end = stem.data() + digits;
-  const auto [rest, error] = from_chars(stem.data(), end, code, 16);
-  if (error != std::errc() || rest != end || code == 0) return std::nullopt;
-  if (stem.size() == digits) return CharacterFile{SourceKind::kanjivg, code, {}};
-  if (stem[digits] != '-' || !is_word(stem.substr(digits + 1))) return std::nullopt;
-  return CharacterFile{SourceKind::kanjivg, code, std::string(stem.substr(digits + 1))};
-}
-
-/// 永.json.
-std::optional<CharacterFile> hanzi_writer_name(std::string_view stem) {
-  try {
-    const std::u32string codes = decode_utf8(stem);
-    if (codes.size() == 1 && codes[0] > 0x7F) return CharacterFile{SourceKind::hanzi_writer_data, codes[0], {}};
-  } catch (const FormatError&) {  // the name is in another encoding
-  }
-  return std::nullopt;
-}
-
-/// From the path of a file within the source; empty if it names no character.
-std::optional<CharacterFile> character_file(std::string_view path) {
-  const std::string_view name = path.substr(path.rfind('/') + 1);
-  const std::size_t dot = name.rfind('.');
-  if (dot == std::string_view::npos) return std::nullopt;
-  if (name.substr(dot) == ".svg") return kanjivg_name(name.substr(0, dot));
-  if (name.substr(dot) == ".json") return hanzi_writer_name(name.substr(0, dot));
-  return std::nullopt;
-}
 
 bool is_ideograph(char32_t code) {
   return (code >= 0x3400 && code <= 0x4DBF) || (code >= 0x4E00 && code <= 0x9FFF) ||
@@ -77,43 +41,221 @@ bool is_package_file(std::string_view path, std::string_view name) {
   return path == name || path == "package/" + std::string(name);
 }
 
-/// Decides which files of a source are read: each character once.
+std::string code_text(char32_t code) {
+  char number[16];
+  std::snprintf(number, sizeof number, "U+%04X", static_cast<unsigned>(code));
+  return encode_utf8(code) + " (" + number + ")";
+}
+
+/// 0 if it is not one character.
+char32_t only_code(const std::string& text) {
+  const std::u32string codes = decode_utf8(text);
+  return codes.size() == 1 ? codes[0] : 0;
+}
+
+/// True if more than one line begins a JSON object.
+bool has_character_a_line(std::string_view text) {
+  std::size_t objects = text.starts_with('{') ? 1 : 0;
+  for (std::size_t end = text.find('\n'); end < text.size() && objects < 2; end = text.find('\n', end + 1)) {
+    if (text.substr(end + 1).starts_with('{')) ++objects;
+  }
+  return objects > 1;
+}
+
+/// The code in the first id of an SVG, as in kvg:StrokePaths_04e00, kvg:04e00 or z19968; 0 if there is none.
+char32_t code_in_svg(std::string_view svg, DrawingForm form) {
+  const bool is_decimal = form == DrawingForm::anim_cjk;
+  for (const std::string_view before : {is_decimal ? "id=\"z" : "\"kvg:StrokePaths_", is_decimal ? "id='z" : "\"kvg:"}) {
+    const std::size_t at = svg.find(before);
+    if (at == svg.npos) continue;
+    unsigned code = 0;
+    const char* const begin = svg.data() + at + before.size();
+    constexpr std::ptrdiff_t most = 7;
+    const char* const end = begin + std::min(most, svg.data() + svg.size() - begin);
+    from_chars(begin, end, code, is_decimal ? 10 : 16);
+    if (code > 0 && code <= 0x10FFFF) return code;
+  }
+  return 0;
+}
+
+/// For messages: the path is not repeated if the file is the source.
+std::string place_in(const std::string& source, const std::string& path) {
+  const std::string only = std::filesystem::path(source).filename().string();
+  if (!only.empty() && path.starts_with(only) && (path.size() == only.size() || path[only.size()] == ':')) {
+    return source + path.substr(only.size());
+  }
+  return source + ": " + path;
+}
+
+/// Why the JSON text is no drawing; empty if it is one.
+std::string problem_of(std::string_view json) {
+  try {
+    parse_hanzi_writer(json, {});
+    return {};
+  } catch (const FormatError& error) {
+    return std::string(error.what()).substr(2);  // after ": "
+  }
+}
+
+/// Decides which files of a source are read, and what character each draws.
 class Selection {
  public:
-  explicit Selection(const ImportOptions& options) : options_(options) {}
+  Selection(std::string source, const ImportOptions& options) : name_(std::move(source)), options_(options) {}
 
-  std::string skip_reason(std::string_view path) {
+  /// From its path alone.
+  FilePlan plan(std::string_view path) {
     if (is_package_file(path, licence_file) || is_package_file(path, package_file)) return {};
-    const std::optional<CharacterFile> name = character_file(path);
-    if (!name) return "not a character file";
-    const bool mixed = name->kind == SourceKind::kanjivg;  // hanzi-writer-data has radicals beside ideographs
-    if (mixed && options_.ideographs_only && !is_ideograph(name->code)) return "not an ideograph";
-    if (!name->order.empty() && !options_.alternates) return "an alternate order";
-    if (!options_.only.empty() && options_.only.find(name->code) == std::u32string::npos) return "not requested";
-    if (!seen_.emplace(name->kind, name->code, name->order).second) return "a duplicate of an earlier file";
+    const FileName name = parse_file_name(path);
+    if (name.form == FileForm::none) return {"not a character file"};
+    if (name.form == FileForm::list) return {{}, true};
+    if (!name.has_meaning()) return {{}, false, true};
+    if (!name.order.empty() && !options_.alternates) return {"an alternate order"};
+    const char32_t codes[] = {name.code, name.hex, name.decimal};
+    if (std::none_of(std::begin(codes), std::end(codes), [this](char32_t code) { return is_asked_for(code); })) {
+      return {"not requested"};
+    }
+    const std::string_view last = path.substr(path.rfind('/') + 1);
+    if (!names_.emplace(last).second) return {"a duplicate of an earlier file"};
     return {};
   }
 
+  /// Adds the drawings in a file, or why there are none. `is_only`: it is the source.
+  void take(SourceFile file, bool is_only) {
+    FileName name = parse_file_name(file.path);
+    const std::size_t mark = file.text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+    if (name.form == FileForm::none) {  // the only one: its content tells
+      const std::size_t first = file.text.find_first_not_of(" \t\r\n", mark);
+      name.form = first != file.text.npos && file.text[first] == '<' ? FileForm::svg : FileForm::json;
+    }
+    if (name.form == FileForm::svg) return take_svg(std::move(file), name, is_only);
+    if (mark > 0) file.text.erase(0, mark);
+    if (name.form == FileForm::list || has_character_a_line(file.text)) return take_lines(file);
+    take_json(std::move(file), name, is_only);
+  }
+
+  DrawingSource finish(std::vector<SkippedFile> skipped) {
+    source_.skipped.insert(source_.skipped.begin(), std::make_move_iterator(skipped.begin()),
+                           std::make_move_iterator(skipped.end()));
+    std::stable_sort(source_.skipped.begin(), source_.skipped.end(),
+                     [](const SkippedFile& a, const SkippedFile& b) { return a.path < b.path; });
+    std::sort(source_.files.begin(), source_.files.end(), [](const DrawingFile& a, const DrawingFile& b) {
+      return std::tie(a.character.code, a.character.order) < std::tie(b.character.code, b.character.order);
+    });
+    return std::move(source_);
+  }
+
  private:
+  bool is_asked_for(char32_t code) const {
+    return code != 0 && (options_.only.empty() || options_.only.find(code) != std::u32string::npos);
+  }
+
+  void skip(const std::string& path, std::string reason, bool unusable = false) {
+    if (unusable && options_.strict) throw FormatError(place_in(name_, path) + ": " + reason);
+    source_.skipped.push_back({path, std::move(reason), unusable});
+  }
+
+  void add(CharacterFile character, DrawingForm form, const std::string& path, std::string text) {
+    const bool is_mixed = form == DrawingForm::kanjivg;  // the others have radicals beside ideographs
+    if (is_mixed && options_.ideographs_only && !is_ideograph(character.code)) return skip(path, "not an ideograph");
+    if (!is_asked_for(character.code)) return skip(path, "not requested");
+    if (!seen_.emplace(character.kind, character.code, character.order).second) {
+      return skip(path, "a duplicate of an earlier file");
+    }
+    source_.files.push_back({std::move(character), form, path, place_in(name_, path), std::move(text)});
+  }
+
+  /// What a name without meaning and content without a character lead to.
+  void skip_nameless(const std::string& path, bool is_only, const char* where) {
+    if (!is_only) return skip(path, "not a character file");
+    skip(path, std::string("neither its name nor ") + where + " says which character it has", true);
+  }
+
+  void take_svg(SourceFile file, const FileName& name, bool is_only) {
+    const DrawingForm form = is_anim_cjk(file.text) ? DrawingForm::anim_cjk : DrawingForm::kanjivg;
+    const bool is_brush = form == DrawingForm::anim_cjk;
+    char32_t code = name.code != 0 ? name.code : is_brush ? name.decimal : name.hex;
+    const char32_t inside = code_in_svg(file.text, form);
+    if (code == 0) code = inside;
+    if (code == 0) return skip_nameless(file.path, is_only, "an id in it");
+    if (is_brush && inside != 0 && inside != code) {
+      return skip(file.path, "its name says " + code_text(code) + ", its id " + code_text(inside), true);
+    }
+    const SourceKind kind = is_brush ? SourceKind::anim_cjk : SourceKind::kanjivg;
+    add({kind, code, is_brush ? std::string() : name.order}, form, file.path, std::move(file.text));
+  }
+
+  void take_json(SourceFile file, const FileName& name, bool is_only) {
+    const std::optional<std::string> member = character_member(file.text);
+    const char32_t inside = member ? only_code(*member) : 0;
+    if (name.code == 0 && !member) {
+      const std::string problem = is_only ? problem_of(file.text) : "";
+      if (!problem.empty()) return skip(file.path, problem, true);
+      return skip_nameless(file.path, is_only, "a member \"character\"");
+    }
+    if (member && inside == 0) {
+      return skip(file.path, "character: \"" + shortened(*member) + "\": expected one character", true);
+    }
+    if (name.code != 0 && member && inside != name.code) {
+      return skip(file.path, "character: " + code_text(inside) + ", but its name says " + code_text(name.code), true);
+    }
+    add({SourceKind::hanzi_writer_data, member ? inside : name.code, {}}, DrawingForm::hanzi_writer, file.path,
+        std::move(file.text));
+  }
+
+  void take_lines(const SourceFile& file) {
+    const SourceKind kind = is_anim_cjk_list(file.path) ? SourceKind::anim_cjk : SourceKind::make_me_a_hanzi;
+    std::size_t number = 0, begin = 0;
+    while (begin < file.text.size()) {
+      const std::size_t end = std::min(file.text.find('\n', begin), file.text.size());
+      const std::string_view line = std::string_view(file.text).substr(begin, end - begin);
+      begin = end + 1;
+      if (++number > options_.limits.entries) {
+        throw FormatError(name_ + ": " + file.path + ": more than " + std::to_string(options_.limits.entries) + " lines");
+      }
+      if (line.find_first_not_of(" \t\r") == line.npos) continue;
+      take_line(line, kind, file.path + ": line " + std::to_string(number));
+    }
+  }
+
+  void take_line(std::string_view line, SourceKind kind, const std::string& path) {
+    const std::optional<std::string> member = character_member(line);
+    const char32_t inside = member ? only_code(*member) : 0;
+    if (inside != 0) return add({kind, inside, {}}, DrawingForm::hanzi_writer, path, std::string(line));
+    const std::string problem = member ? "character: \"" + shortened(*member) + "\": expected one character" : problem_of(line);
+    skip(path, problem.empty() ? "character: missing" : problem, true);
+  }
+
+  static std::string shortened(const std::string& text) { return printable(text.substr(0, 40)); }
+
+  std::string name_;
   const ImportOptions& options_;
+  DrawingSource source_;
+  std::set<std::string, std::less<>> names_;
   std::set<std::tuple<SourceKind, char32_t, std::string>> seen_;
 };
 
-/// @throws FormatError if there are no files, or files of both kinds
-SourceKind kind_of(const std::vector<DrawingFile>& files, const std::string& source, const ImportOptions& options) {
+/// @throws FormatError if there are no files, or files of several kinds
+SourceKind kind_of(const DrawingSource& source, const std::string& name, const ImportOptions& options) {
+  const std::vector<DrawingFile>& files = source.files;
   if (files.empty()) {
+    for (const SkippedFile& file : source.skipped) {
+      if (file.unusable) throw FormatError(place_in(name, file.path) + ": " + file.reason);
+    }
     const char32_t wanted = options.only.empty() ? U'永' : options.only.front();
     char number[16];
     std::snprintf(number, sizeof number, "%05x", static_cast<unsigned>(wanted));
-    throw FormatError(source + ": contains no character file" + (options.only.empty() ? "" : " that was requested") +
+    throw FormatError(name + ": contains no character file" + (options.only.empty() ? "" : " that was requested") +
                       ": neither " + encode_utf8(wanted) + ".json as in hanzi-writer-data nor " + number +
-                      ".svg as in KanjiVG");
+                      ".svg as in KanjiVG, nor graphics.txt");
   }
   const SourceKind kind = files.front().character.kind;
   for (const DrawingFile& file : files) {
     if (file.character.kind == kind) continue;
-    throw FormatError(source + ": contains both hanzi-writer-data and KanjiVG: " + files.front().place + " and " +
-                      file.place);
+    const auto [first, second] = std::minmax(files.front(), file, [](const DrawingFile& a, const DrawingFile& b) {
+      return a.character.kind < b.character.kind;
+    });
+    throw FormatError(name + ": contains both " + to_string(first.character.kind) + " and " +
+                      to_string(second.character.kind) + ": " + first.place + " and " + second.place);
   }
   return kind;
 }
@@ -132,34 +274,35 @@ std::string package_words(const std::string& package_json) {
 }  // namespace
 
 const char* to_string(SourceKind kind) noexcept {
-  static constexpr const char* names[] = {"hanzi-writer-data", "KanjiVG", "calligraphy"};
+  static constexpr const char* names[] = {"hanzi-writer-data", "KanjiVG", "Make Me a Hanzi", "animCJK", "calligraphy"};
   return name_of<SourceKind::calligraphy>(kind, names, "calligraphy");
 }
 
 DrawingSource read_drawings(const std::filesystem::path& path, const ImportOptions& options) {
-  Selection selection(options);
-  const auto skip_reason = [&](std::string_view file) {
+  Selection selection(path.string(), options);
+  const auto plan = [&](std::string_view file) {
     if (options.progress) options.progress(0.0);  // reading alone may take seconds
-    return selection.skip_reason(file);
+    return selection.plan(file);
   };
-  SourceFiles found = read_source(path, skip_reason, options.limits);
-  DrawingSource source;
-  source.skipped = std::move(found.skipped);
+  SourceFiles found = read_source(path, plan, options.limits);
+  std::error_code failure;
+  const bool is_only = found.files.size() == 1 && std::filesystem::is_regular_file(path, failure) &&
+                       found.files[0].path == path.filename().string();
+  std::string licence, package;
   for (SourceFile& file : found.files) {
-    std::string place = path.string() + ": " + file.path;
     if (is_package_file(file.path, licence_file)) {
-      source.licence = with_plain_line_ends(file.text, place);
+      licence = with_plain_line_ends(file.text, path.string() + ": " + file.path);
     } else if (is_package_file(file.path, package_file)) {
-      source.package = std::move(file.text);
+      package = std::move(file.text);
     } else {
-      source.files.push_back({*character_file(file.path), std::move(place), std::move(file.text)});
+      selection.take(std::move(file), is_only);
     }
   }
-  source.kind = kind_of(source.files, path.string(), options);
+  DrawingSource source = selection.finish(std::move(found.skipped));
+  source.licence = std::move(licence);
+  source.package = std::move(package);
+  source.kind = kind_of(source, path.string(), options);
   check_applies(options, source.kind);
-  std::sort(source.files.begin(), source.files.end(), [](const DrawingFile& a, const DrawingFile& b) {
-    return std::tie(a.character.code, a.character.order) < std::tie(b.character.code, b.character.order);
-  });
   return source;
 }
 
@@ -177,8 +320,15 @@ Provenance provenance(const DrawingSource& source, const ImportOptions& options,
                     ": add the Arphic Public License when redistributing the characters");
   }
   const std::string letters = options.letters.empty() ? "" : "; stroke letters: theajack, cnchar-order (MIT)";
+  if (source.kind == SourceKind::anim_cjk) {
+    notes.push_back("animCJK has its kana and the drawings of single strokes under the GNU LGPL 3 or later");
+    return {"animCJK" + package_words(source.package), "Arphic Public License",
+            "Arphic Technology, Make Me a Hanzi, FM&SH, animCJK, https://github.com/parsimonhi/animCJK" + letters + change,
+            source.licence.empty() ? notice : source.licence};
+  }
+  const std::string writer = source.kind == SourceKind::hanzi_writer_data ? ", Hanzi Writer" : "";
   return {"Make Me a Hanzi" + package_words(source.package), "Arphic Public License",
-          "Arphic Technology, Make Me a Hanzi, Hanzi Writer" + letters + change, source.licence};
+          "Arphic Technology, Make Me a Hanzi" + writer + letters + change, source.licence};
 }
 
 void check_applies(const ImportOptions& options, SourceKind kind) {
@@ -189,12 +339,13 @@ void check_applies(const ImportOptions& options, SourceKind kind) {
     throw ValueError(option + ": applies only to " + names + ", not to " +
                      (kind == SourceKind::calligraphy ? "a set file or the text format" : to_string(kind)));
   };
-  refuse(!options.letters.empty(), "letters", {SourceKind::hanzi_writer_data});
-  refuse(options.ink == InkDetail::half_widths, "ink half-widths", {SourceKind::hanzi_writer_data});
-  refuse(options.alternates, "alternates", {SourceKind::kanjivg});
-  refuse(!options.ideographs_only, "ideographs_only", {SourceKind::kanjivg});
-  refuse(options.report, "report", {SourceKind::hanzi_writer_data, SourceKind::kanjivg});
-  refuse(!options.date.empty(), "date", {SourceKind::hanzi_writer_data, SourceKind::kanjivg});
+  using enum SourceKind;
+  refuse(!options.letters.empty(), "letters", {hanzi_writer_data, make_me_a_hanzi, anim_cjk});
+  refuse(options.ink == InkDetail::half_widths, "ink half-widths", {hanzi_writer_data, make_me_a_hanzi, anim_cjk});
+  refuse(options.alternates, "alternates", {kanjivg});
+  refuse(!options.ideographs_only, "ideographs_only", {kanjivg});
+  refuse(options.report, "report", {hanzi_writer_data, kanjivg, make_me_a_hanzi, anim_cjk});
+  refuse(!options.date.empty(), "date", {hanzi_writer_data, kanjivg, make_me_a_hanzi, anim_cjk});
 }
 
 }  // namespace calligraphy

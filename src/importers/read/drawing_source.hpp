@@ -14,13 +14,13 @@ namespace calligraphy {
 
 struct DrawingSource {
   SourceKind kind = SourceKind::calligraphy;
-  std::vector<DrawingFile> files;  ///< by code point and order, at least one
+  std::vector<DrawingFile> files;  ///< by code point and order, each character once; at least one
   std::vector<SkippedFile> skipped;
   std::string licence;  ///< text of the licence; empty if the source has none
   std::string package;  ///< text of its package.json; empty if the source has none
 };
 
-/// Reads the files that the options ask for, each character once.
+/// Reads the files that the options ask for. What names no character, or contradicts its name, is skipped.
 /// @throws FileError and FormatError as read_source(); FormatError if it contains no such file or is of two kinds;
 ///         ValueError as check_applies()
 DrawingSource read_drawings(const std::filesystem::path& path, const ImportOptions& options);

@@ -1,11 +1,13 @@
 #include "hanzi_writer.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/error.hpp>
 
+#include "outline_area.hpp"
 #include "path_data.hpp"
 
 namespace calligraphy {
@@ -20,21 +22,6 @@ constexpr double units_per_em = 1024.0;
 constexpr double baseline = -124.0;                    // [unit]
 constexpr double max_coordinate = 8.0 * units_per_em;  // [unit]
 constexpr double outline_tolerance = 5e-4;             // [em]
-constexpr double least_outline_area = 1e-5;            // [em^2]; the smallest of the package has 7e-4
-
-/// Of all polygons, holes included.
-double area_of(const std::vector<std::vector<Point>>& polygons) {
-  double area = 0.0;
-  for (const std::vector<Point>& polygon : polygons) {
-    double twice = 0.0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Point from = polygon[i] - polygon[0], to = polygon[i + 1 < polygon.size() ? i + 1 : 0] - polygon[0];
-      twice += from.x() * to.y() - from.y() * to.x();
-    }
-    area += 0.5 * std::abs(twice);
-  }
-  return area;
-}
 
 /// Parses the JSON text of one character, with messages that name the file and the place.
 class Reader {
@@ -118,12 +105,55 @@ class Reader {
   Json root_;
 };
 
+/// Finds the member "character" of the outermost object, and then stops.
+struct MemberSearch : nlohmann::json_sax<Json> {
+  std::optional<std::string> found;
+  int depth = 0;
+  bool is_wanted = false;  ///< the next value
+
+  bool key(std::string& name) override {
+    is_wanted = depth == 1 && name == "character";
+    return true;
+  }
+  bool string(std::string& value) override {
+    if (is_wanted) found = value;
+    return !is_wanted;
+  }
+  bool start_object(std::size_t) override { return open(); }
+  bool start_array(std::size_t) override { return open(); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool null() override { return !is_wanted; }
+  bool boolean(bool) override { return !is_wanted; }
+  bool number_integer(std::int64_t) override { return !is_wanted; }
+  bool number_unsigned(std::uint64_t) override { return !is_wanted; }
+  bool number_float(double, const std::string&) override { return !is_wanted; }
+  bool binary(Json::binary_t&) override { return !is_wanted; }
+  bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }
+
+ private:
+  bool open() {
+    ++depth;
+    return !is_wanted;
+  }
+  bool close() {
+    --depth;
+    return true;
+  }
+};
+
 }  // namespace
 
 Point hanzi_writer_em(const Point& units) { return Point(units.x(), units.y() - baseline) / units_per_em; }
 
 std::vector<DrawnStroke> parse_hanzi_writer(std::string_view json, const std::string& name) {
   return Reader(json, name).strokes();
+}
+
+std::optional<std::string> character_member(std::string_view json) {
+  MemberSearch search;
+  Json::sax_parse(json, &search);
+  return search.found;
 }
 
 }  // namespace calligraphy

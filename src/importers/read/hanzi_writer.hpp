@@ -1,6 +1,7 @@
 // hanzi-writer-data (Make Me a Hanzi): outlines and medians of brush strokes, one JSON file per character.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,5 +18,8 @@ Point hanzi_writer_em(const Point& units);
 /// used in messages.
 /// @throws FormatError naming the place
 std::vector<DrawnStroke> parse_hanzi_writer(std::string_view json, const std::string& name);
+
+/// The member "character" of a JSON text, as far as it can be read; graphics.txt has it.
+std::optional<std::string> character_member(std::string_view json);
 
 }  // namespace calligraphy

@@ -78,10 +78,10 @@ StrokeLetters read_stroke_letters(const std::filesystem::path& source) {
   if (std::filesystem::is_regular_file(source, failure) && source.extension() == ".js") {
     return parse_stroke_letters(read_file(source, max_script), source.string());
   }
-  const auto reason = [](std::string_view path) {
-    return std::filesystem::path(path).filename() == file_name ? std::string() : std::string("not the letters");
+  const auto plan = [](std::string_view path) {
+    return FilePlan{std::filesystem::path(path).filename() == file_name ? "" : "not the letters"};
   };
-  const SourceFiles found = read_source(source, reason);
+  const SourceFiles found = read_source(source, plan);
   if (found.files.empty()) throw FileError(source.string() + ": contains no " + std::string(file_name));
   const SourceFile& file = found.files.front();
   return parse_stroke_letters(file.text, source.string() + ": " + file.path);

@@ -1,13 +1,21 @@
-// zlib decompresses and verifies the checksums, which libarchive's filter does not; libarchive reads the tar inside.
+// Tarballs and zips. zlib decompresses the former and verifies the checksums, which libarchive's filter does not;
+// libarchive reads the tar inside. A zip is read by its directory, which is at its end: a truncated one has none.
 #include "source_files.hpp"
 
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <system_error>
+#include <utility>
+
+#include <locale.h>
+#ifdef __APPLE__
+#include <xlocale.h>
+#endif
 
 #include <archive.h>
 #include <archive_entry.h>
@@ -65,7 +73,6 @@ class Unpacker {
   /// truncated after a file.
   bool has_end_mark() const { return zeros_ >= end_mark; }
 
-  const std::string& name() const { return name_; }
   const std::string& failure() const { return failure_; }
   std::string place() const { return " (packed byte " + std::to_string(packed_offset()) + ")"; }
 
@@ -138,17 +145,45 @@ la_ssize_t next_bytes(archive* reader, void* unpacker, const void** bytes) {
   return count < 0 ? ARCHIVE_FATAL : count;
 }
 
-/// Reads one tarball.
-class Tarball {
+/// In the calling thread, while it exists: libarchive converts the names in a zip to the character set of the locale, and
+/// fails in that of C. Without such a locale, everything stays as it is.
+class Utf8Locale {
  public:
-  Tarball(const std::filesystem::path& path, const SourceLimits& limits)
-      : limits_(limits), unpacker_(std::make_unique<Unpacker>(path, limits)), reader_(archive_read_new()) {
+  Utf8Locale() : utf8_(newlocale(LC_CTYPE_MASK, "C.UTF-8", locale_t{})) {
+    if (utf8_ != locale_t{}) before_ = uselocale(utf8_);
+  }
+  ~Utf8Locale() {
+    if (utf8_ == locale_t{}) return;
+    uselocale(before_);
+    freelocale(utf8_);
+  }
+  Utf8Locale(const Utf8Locale&) = delete;
+  Utf8Locale& operator=(const Utf8Locale&) = delete;
+
+ private:
+  locale_t utf8_;
+  locale_t before_{};
+};
+
+/// Reads one tarball or zip.
+class Archive {
+ public:
+  Archive(const std::filesystem::path& path, std::string_view format, const SourceLimits& limits)
+      : name_(path.string()), is_zip_(format == "zip"), limits_(limits), reader_(archive_read_new()) {
     if (!reader_) throw std::bad_alloc();
-    archive_read_support_format_tar(reader_.get());
-    check(archive_read_open(reader_.get(), unpacker_.get(), nullptr, next_bytes, nullptr), "");
+    if (is_zip_) {
+      constexpr std::size_t block = 1 << 16;  // [byte]
+      archive_read_support_format_zip_seekable(reader_.get());
+      check(archive_read_open_filename(reader_.get(), path.c_str(), block), "");
+      packed_ = std::filesystem::file_size(path);
+    } else {
+      unpacker_ = std::make_unique<Unpacker>(path, limits);
+      archive_read_support_format_tar(reader_.get());
+      check(archive_read_open(reader_.get(), unpacker_.get(), nullptr, next_bytes, nullptr), "");
+    }
   }
 
-  SourceFiles read(const SkipReason& skip_reason) {
+  SourceFiles read(const FilePlanner& plan) {
     SourceFiles found;
     archive_entry* entry = nullptr;
     std::size_t entries = 0;
@@ -157,31 +192,33 @@ class Tarball {
       const std::string path = path_of(entry, last);
       last = path;
       if (archive_entry_filetype(entry) == AE_IFDIR) continue;
-      std::string reason = kind_reason(entry);
-      if (reason.empty()) reason = skip_reason(path);
-      if (reason.empty()) {
-        found.files.push_back({path, text_of(entry, path)});
+      FilePlan file{kind_reason(entry)};
+      if (file.skip_reason.empty()) file = plan(path);
+      std::optional<std::string> text;
+      if (file.skip_reason.empty()) text = text_of(entry, path, file);
+      if (text) {
+        found.files.push_back({path, std::move(*text)});
       } else {
-        found.skipped.push_back({path, reason});
+        found.skipped.push_back({path, std::move(file.skip_reason)});
       }
     }
-    read_to_the_end();
+    if (!is_zip_) read_to_the_end();
     return found;
   }
 
  private:
   [[noreturn]] void fail(const std::string& entry, const std::string& what) const {
     const std::string place = entry.empty() ? "" : ": " + entry;
-    throw FormatError(unpacker_->name() + place + ": " + what);
+    throw FormatError(name_ + place + ": " + what);
   }
 
   /// Throws on failure. Warnings concern names in other alphabets, or attributes, which are not used.
   void check(int result, const std::string& entry) const {
     if (result >= ARCHIVE_WARN) return;
     const char* const message = archive_error_string(reader_.get());
-    if (!unpacker_->failure().empty()) fail(entry, unpacker_->failure() + unpacker_->place());
-    fail(entry, std::string("damaged, or not a tarball: ") + (message == nullptr ? "unreadable" : message) +
-                    unpacker_->place());
+    if (unpacker_ && !unpacker_->failure().empty()) fail(entry, unpacker_->failure() + unpacker_->place());
+    fail(entry, std::string("damaged, or not a ") + (is_zip_ ? "zip: " : "tarball: ") +
+                    (message == nullptr ? "unreadable" : message) + (unpacker_ ? unpacker_->place() : ""));
   }
 
   bool next(archive_entry*& entry, const std::string& last) {
@@ -202,7 +239,7 @@ class Tarball {
     const std::filesystem::path parts(name);
     if (parts.is_absolute()) fail(name, "an absolute path");
     for (const std::filesystem::path& part : parts) {
-      if (part == "..") fail(name, "a path that leaves the tarball");
+      if (part == "..") fail(name, std::string("a path that leaves the ") + (is_zip_ ? "zip" : "tarball"));
     }
     return name;
   }
@@ -211,24 +248,50 @@ class Tarball {
     const bool is_hard_link = archive_entry_hardlink(entry) != nullptr || archive_entry_hardlink_utf8(entry) != nullptr;
     if (is_hard_link || archive_entry_filetype(entry) == AE_IFLNK) return "a link";
     if (archive_entry_sparse_count(entry) > 0) return "a sparse file";
+    if (archive_entry_is_encrypted(entry) != 0) return "encrypted";
     return archive_entry_filetype(entry) == AE_IFREG ? "" : "not a regular file";
   }
 
-  std::string text_of(archive_entry* entry, const std::string& path) {
-    const la_int64_t size = archive_entry_size(entry);
-    if (size < 0 || static_cast<std::uint64_t>(size) > limits_.entry_bytes) {
-      fail(path,
-           std::to_string(size) + " bytes, larger than the limit of " + std::to_string(limits_.entry_bytes) + " bytes");
-    }
+  /// Empty, with the reason in the plan, if the file is skipped for its size.
+  std::optional<std::string> text_of(archive_entry* entry, const std::string& path, FilePlan& plan) {
+    const la_int64_t size = archive_entry_size_is_set(entry) != 0 ? archive_entry_size(entry) : -1;
+    if (size < 0) fail(path, "has no size");
+    plan.skip_reason = size_reason(static_cast<std::uintmax_t>(size), plan, limits_, name_ + ": " + path);
+    if (!plan.skip_reason.empty()) return std::nullopt;
+    if (is_zip_) count_unpacked(static_cast<std::size_t>(size), path);
     std::string text(static_cast<std::size_t>(size), '\0');
     std::size_t at = 0;
     while (at < text.size()) {
       const la_ssize_t count = archive_read_data(reader_.get(), text.data() + at, text.size() - at);
-      if (count < 0) check(static_cast<int>(count), path);
+      if (count < 0) check_data(count, path);
       if (count <= 0) fail(path, "is shorter than its " + std::to_string(size) + " bytes");
       at += static_cast<std::size_t>(count);
     }
+    if (is_zip_) read_checksum(path, text.size());
     return text;
+  }
+
+  /// A warning while a zip is read concerns its data.
+  void check_data(la_ssize_t result, const std::string& path) const {
+    check(is_zip_ && result < 0 ? ARCHIVE_FATAL : static_cast<int>(result), path);
+  }
+
+  /// libarchive compares it at the end of the data.
+  void read_checksum(const std::string& path, std::size_t size) {
+    char more = 0;
+    const la_ssize_t count = archive_read_data(reader_.get(), &more, 1);
+    if (count < 0) check_data(count, path);
+    if (count > 0) fail(path, "is longer than its " + std::to_string(size) + " bytes");
+  }
+
+  /// The limits that Unpacker keeps for a tarball.
+  void count_unpacked(std::size_t bytes, const std::string& path) {
+    unpacked_ += bytes;
+    if (unpacked_ > limits_.total_bytes) fail(path, "unpacks to more than " + std::to_string(limits_.total_bytes) + " bytes");
+    if (unpacked_ > ratio_judged_from &&
+        static_cast<double>(unpacked_) > limits_.unpacked_to_packed * static_cast<double>(packed_)) {
+      fail(path, "unpacks to more than " + std::to_string(static_cast<int>(limits_.unpacked_to_packed)) + " times its size");
+    }
   }
 
   /// The data after the end of the tar contains the checksum of all of it.
@@ -246,15 +309,21 @@ class Tarball {
     void operator()(archive* reader) const noexcept { archive_read_free(reader); }
   };
 
+  std::string name_;
+  bool is_zip_;
   SourceLimits limits_;
-  std::unique_ptr<Unpacker> unpacker_;
+  std::unique_ptr<Unpacker> unpacker_;  ///< of a tarball
+  std::uintmax_t packed_ = 0;           ///< size of a zip [byte]
+  std::size_t unpacked_ = 0;            ///< read from a zip [byte]
   std::unique_ptr<archive, Free> reader_;
 };
 
 }  // namespace
 
-SourceFiles read_tarball(const std::filesystem::path& path, const SkipReason& skip_reason, const SourceLimits& limits) {
-  return Tarball(path, limits).read(skip_reason);
+SourceFiles read_archive(const std::filesystem::path& path, std::string_view format, const FilePlanner& plan,
+                         const SourceLimits& limits) {
+  const Utf8Locale locale;
+  return Archive(path, format, limits).read(plan);
 }
 
 }  // namespace calligraphy

@@ -1,0 +1,27 @@
+// The paths of an SVG file that draws one character; private to the importers.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace calligraphy {
+
+struct SvgPath {
+  std::string data;   ///< attribute d
+  std::string id;     ///< empty if there is none, as the others
+  std::string clip;   ///< clip-path
+  std::string label;  ///< kvg:type
+};
+
+struct SvgDrawing {
+  std::string notice;  ///< the comment at the head of the file
+  std::vector<SvgPath> paths;
+};
+
+/// Paths in the order of the document, which has a square frame of this size [unit], by its viewBox or, without one, by
+/// width and height. Only the five predefined entities of XML are expanded. `name` is used in messages.
+/// @throws FormatError naming the place, also for a transform
+SvgDrawing parse_svg(std::string_view svg, double size, const std::string& name);
+
+}  // namespace calligraphy
