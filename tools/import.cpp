@@ -134,15 +134,15 @@ void run(const ImportArguments& options) {
 void add_import(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "import",
-      "Convert other collections of characters to typical strokes. SOURCE is hanzi-writer-data, Make Me a Hanzi, animCJK or "
-      "KanjiVG (directory, tarball, zip or one of their files), a set file or a file in the text format; its content tells "
-      "which.");
+      "Convert other collections of characters to typical strokes. SOURCE is hanzi-writer-data, Make Me a Hanzi, animCJK "
+      "or KanjiVG (directory, tarball, zip or one of their files), a set file or a file in the text format; its content "
+      "tells which.");
   command->footer(
       "npm pack hanzi-writer-data@2.0.1    # the source, a .tgz\n"
       "calligraphy import hanzi-writer-data-2.0.1.tgz -o hanzi.set\n"
       "calligraphy import hanzi.set --only 永 --format text -o -    # to edit");
   const auto options = std::make_shared<ImportArguments>();
-  command->add_option("SOURCE", options->source, "Directory, tarball, zip, JSON, SVG, set file or file in the text format")
+  command->add_option("SOURCE", options->source, "Directory, tarball, zip, JSON, SVG, set or text file")
       ->required()
       ->type_name("PATH");
   add_out_file(*command, options->out);

@@ -179,7 +179,9 @@ ImportResult import_drawings(const std::filesystem::path& path, const ImportOpti
     try {
       Drawing drawing = parse_drawing(source.files[i], letters, options.corrections);
       strokes += static_cast<int>(drawing.strokes.size());
-      if (strokes <= max_imported_strokes) results[i].character = imported(source.files[i], std::move(drawing), options);
+      if (strokes <= max_imported_strokes) {
+        results[i].character = imported(source.files[i], std::move(drawing), options);
+      }
     } catch (const FormatError& error) {
       if (options.strict) throw;
       results[i].problem = error.what();

@@ -233,7 +233,8 @@ TEST_CASE("unusable files are skipped with the reason, or the first fails a stri
     const bool faulty = code == 0x4E10 || code >= 0x4E20;
     directory.write(name, kanjivg({{"㇐", heng}, {"㇐", faulty ? "M1,2B3,4" : heng}}));
   }
-  const std::string reason = "stroke 2: path data at byte 4: command 'B': expected one of M, L, H, V, C, S, Q, T, A and Z";
+  const std::string reason =
+      "stroke 2: path data at byte 4: command 'B': expected one of M, L, H, V, C, S, Q, T, A and Z";
   ImportOptions options;
   for (const int threads : {1, 2, 8}) {
     options.threads = threads;
@@ -257,7 +258,8 @@ TEST_CASE("unusable files are skipped with the reason, or the first fails a stri
 
 TEST_CASE("a character is named in many ways, and a name that the file contradicts makes it unusable", "[practice]") {
   const std::string named = R"({"character":"一","medians":[[[100,400],[900,400]]]})";
-  for (const char* const name : {"%E4%B8%80.json", "19968.json", "U+4E00.json", "u4e00.json", "4e00.json", "04e00.json"}) {
+  for (const char* const name :
+       {"%E4%B8%80.json", "19968.json", "U+4E00.json", "u4e00.json", "4e00.json", "04e00.json"}) {
     INFO(name);
     const TemporaryDirectory directory;
     directory.write(name, hanzi_writer_heng);
@@ -309,7 +311,8 @@ TEST_CASE("a file with a character a line is read line by line", "[practice]") {
 
 TEST_CASE("animCJK is in the frame of hanzi-writer-data, and the parts of its strokes belong together", "[practice]") {
   const std::string first = R"svg(<path id="z19968d1a" d="M100 476L600 476L600 516L100 516Z"/>)svg";
-  const std::string second = R"svg(<path id="z19968d1b" d="M900 476L500 476L500 516L900 516Z"/>)svg";  // the other way round
+  // The other way round.
+  const std::string second = R"svg(<path id="z19968d1b" d="M900 476L500 476L500 516L900 516Z"/>)svg";
   const std::string medians = R"svg(<path clip-path="url(#z19968c1a)" d="M110 496 890 496"/>
       <path clip-path="url(#z19968c1b)" d="M-110 496 890 496"/>)svg";
   const std::string head = R"(<!-- Copyright --><svg id="z19968" viewBox="0 0 1024 1024">)";
@@ -319,7 +322,8 @@ TEST_CASE("animCJK is in the frame of hanzi-writer-data, and the parts of its st
   const ImportResult import = import_characters(animated.path());
   CHECK(import.report.kind == SourceKind::anim_cjk);
   CHECK(import.list.provenance.licence_text == " Copyright ");
-  const Character found = import.list.characters.at(0), expected = import_characters(plain.path()).list.characters.at(0);
+  const Character found = import.list.characters.at(0);
+  const Character expected = import_characters(plain.path()).list.characters.at(0);
   REQUIRE(found.stroke_count() == 1);
   for (std::size_t i = 0; i < 2; ++i) {
     CHECK((found.structure.control_points[i] - expected.structure.control_points[i]).norm() < 1e-9);

@@ -88,8 +88,8 @@ TEST_CASE("every way to write a curve draws the same one", "[practice]") {
     check_same(same, smooth);
   }
   const std::string lines = "M1 2L5 2L5 7L.5.25L1 2";
-  for (const char* const same : {"M1,2H5V7L.5.25z", "m1 2h4v5l-4.5-6.75Z", "M1 2 5 2 5 7 .5.25Z", "m1,2 4,0 0,5-4.5-6.75z",
-                                 "M1 2H3 5V4 7L.5.25 1 2"}) {
+  for (const char* const same : {"M1,2H5V7L.5.25z", "m1 2h4v5l-4.5-6.75Z", "M1 2 5 2 5 7 .5.25Z",
+                                 "m1,2 4,0 0,5-4.5-6.75z", "M1 2H3 5V4 7L.5.25 1 2"}) {
     Path path = flattened_path(same, 0.01);
     std::erase(path, Point(3, 2));
     std::erase(path, Point(5, 4));

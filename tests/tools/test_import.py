@@ -9,6 +9,7 @@ import resource
 import signal
 import subprocess
 import tarfile
+import zipfile
 import zlib
 from pathlib import Path
 
@@ -55,6 +56,12 @@ class ImportTest(ProgramTest):
         path = self.directory / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content.encode() if isinstance(content, str) else content)
+        return name
+
+    def zip(self, files, compression=zipfile.ZIP_STORED, name="source.zip"):
+        with zipfile.ZipFile(self.directory / name, "w", compression) as archive:
+            for path, content in files.items():
+                archive.writestr(path, content)
         return name
 
     def report(self, *arguments):
@@ -116,6 +123,31 @@ class ImportResult(ImportTest):
                 with self.subTest(format=format, name=name):
                     self.tar(member(name, content), format=format)
                     self.assertEqual(self.report("source.tgz")["characters"], 1)
+
+    def test_a_zip_is_read_in_every_locale_and_without_what_macos_adds(self):
+        files = {"kanji/04e00.svg": svg(), "__MACOSX/kanji/._04e00.svg": b"\0", "kanji/.DS_Store": b"\0"}
+        report = self.report(self.zip(files, zipfile.ZIP_DEFLATED))
+        self.assertEqual((report["kind"], report["characters"]), ("KanjiVG", 1))
+        self.assertEqual([(row["reason"], row["unusable"], row["count"]) for row in report["skipped"]],
+                         [("not a character file", False, 2)])
+        self.zip({"data/一.json": '{"medians":[[[100,400],[900,400]]]}'})
+        for locale in ("C", "C.UTF-8"):
+            self.run_program("import", "source.zip", "-o", "out.txt", environment={"LC_ALL": locale})
+
+    def test_an_unusable_file_is_skipped_and_told_or_fails_a_strict_import(self):
+        for code, content in ((0x4e00, svg()), (0x4e01, svg('<path d="M1,2B3,4"/>')), (0x4e03, "<svg")):
+            self.write(f"data/{code:05x}.svg", content)
+        done = self.run_program("import", "data", "-o", "out.txt", "--json")
+        self.assertIn("2 unusable files: 04e01.svg: stroke 1: path data at byte 4", done.stderr)
+        report = json.loads(done.stdout)
+        self.assertEqual(report["characters"], 1)
+        self.assertEqual([row["files"] for row in report["skipped"] if row["unusable"]], [["04e03.svg"], ["04e01.svg"]])
+        self.assert_refused(1, ["import", "data", "--strict", "-o", "out.txt"], "data: 04e01.svg: stroke 1")
+        listed = self.run_program("validate", "data").stdout
+        self.assertIn("04e03.svg: unusable: line 1: not XML", listed)
+        self.assertIn("2 unusable files, and", listed)
+        self.assertEqual(len(json.loads(self.run_program("validate", "data", "--json").stdout)["unusable"]), 2)
+        self.assert_refused(1, ["validate", "data", "--strict"], "04e01.svg")
 
     def test_the_json_contains_the_whole_report(self):
         self.tar(member("package/04e00.svg", svg(HENG + SHU.replace("㇑", "㇒") + HENG.replace("㇐", "６"))),
@@ -362,7 +394,7 @@ class Hostile(ImportTest):
                 ("many", svg('<path d="M1,2c1,1,2,2,3,3"/>' * 30_000), "256 strokes"),
                 ("points", svg('<path d="M1,2' + "c9,0,-9,0,0,0" * 70_000 + '"/>'), "20000 points"),
                 ("nested", "<svg viewBox='0 0 109 109'>" + "<g>" * 300_000, "not XML"),
-                ("command", svg('<path d="M1,2L3,4"/>'), "stroke 1"),
+                ("command", svg('<path d="M1,2B3,4"/>'), "stroke 1"),
                 ("text", "永", "not XML")):
             with self.subTest(name=name):
                 self.assert_fails(self.tar(member("package/04e00.svg", content), name=name + ".tgz"), words, "04e00.svg")
@@ -370,6 +402,16 @@ class Hostile(ImportTest):
                               ("far", '{"medians":[[[1,2],[1e300,4]]]}')):
             with self.subTest(json=name):
                 self.assert_fails(self.tar(member("package/永.json", content), name=name + ".tgz"), "永.json")
+
+    def test_damaged_zips_and_paths_that_leave_them_are_rejected(self):
+        whole = (self.directory / self.zip({"kanji/04e00.svg": svg()})).read_bytes()
+        self.write("truncated.zip", whole[:-40])
+        self.assert_fails("truncated.zip", "zip")
+        self.write("damaged.zip", whole.replace(b"90,-2", b"90,-3"))  # stored: only the checksum tells
+        self.assert_fails("damaged.zip", "04e00.svg", "CRC")
+        self.assert_fails(self.zip({"../一.json": "{}"}), "leaves the zip")
+        bomb = {f"{code:05x}.svg": " " * 1_000_000 for code in range(0x4e00, 0x4e20)}
+        self.assert_fails(self.zip(bomb, zipfile.ZIP_DEFLATED), "100 times its size")
 
     def test_excessively_long_names_are_rejected(self):
         self.assert_fails(self.tar(member("x" * 5000 + "/04e00.svg", svg())), "512 bytes")

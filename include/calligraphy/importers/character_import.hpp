@@ -202,8 +202,8 @@ struct ImportResult {
 /// True for a regular file that import_characters() reads as a set file or the text format: no archive, JSON or SVG.
 bool is_own_format(const std::filesystem::path& source);
 
-/// Imports hanzi-writer-data, Make Me a Hanzi, animCJK or KanjiVG (a directory, a tarball, a zip, or one of their files),
-/// a set file or the text format; the kind is detected from the content. A label or letter decides on the typical
+/// Imports hanzi-writer-data, Make Me a Hanzi, animCJK or KanjiVG (a directory, a tarball, a zip, or one of the files in
+/// it), a set file or the text format; the kind is detected from the content. A label or letter decides on the typical
 /// stroke, unless the one recognised by geometry alone follows the drawing much more closely or the label is another
 /// stroke's (docs/import.md). A file that is malformed is skipped, unless ImportOptions::strict is set.
 /// @throws FileError if the source cannot be read; FormatError if it is damaged or exceeds the limits, or naming the

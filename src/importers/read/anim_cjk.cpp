@@ -82,6 +82,7 @@ bool is_anim_cjk(std::string_view svg) {
 
 Drawing parse_anim_cjk(std::string_view svg, const std::string& name) {
   SvgDrawing paths = parse_svg(svg, anim_units_per_em, name);
+  if (paths.paths.size() > max_svg_paths) throw FormatError(name + ": more than 1024 paths");
   std::map<int, DrawnStroke> strokes;
   for (const SvgPath& path : paths.paths) {
     try {
@@ -101,7 +102,7 @@ Drawing parse_anim_cjk(std::string_view svg, const std::string& name) {
       throw FormatError(place + ": expected strokes from 1 to at most 256, without gaps");
     }
     if (stroke.path.empty()) throw FormatError(place + ": has no median, a path whose clip-path is its outline");
-    if (area_of(stroke.outline) < least_outline_area) throw FormatError(place + ": its outline is missing or has no area");
+    if (area_of(stroke.outline) < least_outline_area) throw FormatError(place + ": has no outline, or one without area");
     drawing.strokes.push_back(std::move(stroke));
   }
   return drawing;

@@ -145,8 +145,8 @@ la_ssize_t next_bytes(archive* reader, void* unpacker, const void** bytes) {
   return count < 0 ? ARCHIVE_FATAL : count;
 }
 
-/// In the calling thread, while it exists: libarchive converts the names in a zip to the character set of the locale, and
-/// fails in that of C. Without such a locale, everything stays as it is.
+/// In the calling thread, while it exists: libarchive converts the names in a zip to the character set of the locale,
+/// and fails in that of C. Without such a locale, everything stays as it is.
 class Utf8Locale {
  public:
   Utf8Locale() : utf8_(newlocale(LC_CTYPE_MASK, "C.UTF-8", locale_t{})) {
@@ -287,10 +287,11 @@ class Archive {
   /// The limits that Unpacker keeps for a tarball.
   void count_unpacked(std::size_t bytes, const std::string& path) {
     unpacked_ += bytes;
-    if (unpacked_ > limits_.total_bytes) fail(path, "unpacks to more than " + std::to_string(limits_.total_bytes) + " bytes");
+    const std::string more = "unpacks to more than ";
+    if (unpacked_ > limits_.total_bytes) fail(path, more + std::to_string(limits_.total_bytes) + " bytes");
     if (unpacked_ > ratio_judged_from &&
         static_cast<double>(unpacked_) > limits_.unpacked_to_packed * static_cast<double>(packed_)) {
-      fail(path, "unpacks to more than " + std::to_string(static_cast<int>(limits_.unpacked_to_packed)) + " times its size");
+      fail(path, more + std::to_string(static_cast<int>(limits_.unpacked_to_packed)) + " times its size");
     }
   }
 

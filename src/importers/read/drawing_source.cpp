@@ -65,7 +65,8 @@ bool has_character_a_line(std::string_view text) {
 /// The code in the first id of an SVG, as in kvg:StrokePaths_04e00, kvg:04e00 or z19968; 0 if there is none.
 char32_t code_in_svg(std::string_view svg, DrawingForm form) {
   const bool is_decimal = form == DrawingForm::anim_cjk;
-  for (const std::string_view before : {is_decimal ? "id=\"z" : "\"kvg:StrokePaths_", is_decimal ? "id='z" : "\"kvg:"}) {
+  const std::string_view first = is_decimal ? "id=\"z" : "\"kvg:StrokePaths_";
+  for (const std::string_view before : {first, std::string_view(is_decimal ? "id='z" : "\"kvg:")}) {
     const std::size_t at = svg.find(before);
     if (at == svg.npos) continue;
     unsigned code = 0;
@@ -76,6 +77,15 @@ char32_t code_in_svg(std::string_view svg, DrawingForm form) {
     if (code > 0 && code <= 0x10FFFF) return code;
   }
   return 0;
+}
+
+/// The licence of the package itself, or where animCJK and packages made of it have it.
+bool is_licence_file(std::string_view path) {
+  for (const std::string_view folder : {"licenses/", "licenses/APL/english/"}) {
+    const std::string end = std::string(folder) + std::string(licence_file);
+    if (path == end || path.ends_with("/" + end)) return true;
+  }
+  return is_package_file(path, licence_file);
 }
 
 /// For messages: the path is not repeated if the file is the source.
@@ -104,7 +114,7 @@ class Selection {
 
   /// From its path alone.
   FilePlan plan(std::string_view path) {
-    if (is_package_file(path, licence_file) || is_package_file(path, package_file)) return {};
+    if (is_licence_file(path) || is_package_file(path, package_file)) return {};
     const FileName name = parse_file_name(path);
     if (name.form == FileForm::none) return {"not a character file"};
     if (name.form == FileForm::list) return {{}, true};
@@ -210,7 +220,8 @@ class Selection {
       const std::string_view line = std::string_view(file.text).substr(begin, end - begin);
       begin = end + 1;
       if (++number > options_.limits.entries) {
-        throw FormatError(name_ + ": " + file.path + ": more than " + std::to_string(options_.limits.entries) + " lines");
+        throw FormatError(place_in(name_, file.path) + ": more than " + std::to_string(options_.limits.entries) +
+                          " lines");
       }
       if (line.find_first_not_of(" \t\r") == line.npos) continue;
       take_line(line, kind, file.path + ": line " + std::to_string(number));
@@ -221,7 +232,8 @@ class Selection {
     const std::optional<std::string> member = character_member(line);
     const char32_t inside = member ? only_code(*member) : 0;
     if (inside != 0) return add({kind, inside, {}}, DrawingForm::hanzi_writer, path, std::string(line));
-    const std::string problem = member ? "character: \"" + shortened(*member) + "\": expected one character" : problem_of(line);
+    const std::string problem =
+        member ? "character: \"" + shortened(*member) + "\": expected one character" : problem_of(line);
     skip(path, problem.empty() ? "character: missing" : problem, true);
   }
 
@@ -290,7 +302,8 @@ DrawingSource read_drawings(const std::filesystem::path& path, const ImportOptio
                        found.files[0].path == path.filename().string();
   std::string licence, package;
   for (SourceFile& file : found.files) {
-    if (is_package_file(file.path, licence_file)) {
+    if (is_licence_file(file.path)) {
+      if (!licence.empty() && !is_package_file(file.path, licence_file)) continue;
       licence = with_plain_line_ends(file.text, path.string() + ": " + file.path);
     } else if (is_package_file(file.path, package_file)) {
       package = std::move(file.text);
@@ -323,7 +336,8 @@ Provenance provenance(const DrawingSource& source, const ImportOptions& options,
   if (source.kind == SourceKind::anim_cjk) {
     notes.push_back("animCJK has its kana and the drawings of single strokes under the GNU LGPL 3 or later");
     return {"animCJK" + package_words(source.package), "Arphic Public License",
-            "Arphic Technology, Make Me a Hanzi, FM&SH, animCJK, https://github.com/parsimonhi/animCJK" + letters + change,
+            "Arphic Technology, Make Me a Hanzi, FM&SH, animCJK, https://github.com/parsimonhi/animCJK" + letters +
+                change,
             source.licence.empty() ? notice : source.licence};
   }
   const std::string writer = source.kind == SourceKind::hanzi_writer_data ? ", Hanzi Writer" : "";

@@ -37,7 +37,8 @@ std::string percent_decoded(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     unsigned byte = 0;
     const char* const digits = text.data() + i + 1;
-    const bool is_encoded = text[i] == '%' && i + 2 < text.size() && from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
+    const bool is_encoded =
+        text[i] == '%' && i + 2 < text.size() && from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
     plain += is_encoded ? static_cast<char>(byte) : text[i];
     if (is_encoded) i += 2;
   }

@@ -39,7 +39,8 @@ Drawing parse_kanjivg(std::string_view svg, const std::string& name) {
   Drawing drawing;
   drawing.notice = std::move(lines.notice);
   for (SvgPath& path : lines.paths) {
-    drawing.strokes.push_back(stroke_of(std::move(path), name + ": stroke " + std::to_string(drawing.strokes.size() + 1)));
+    const std::string place = name + ": stroke " + std::to_string(drawing.strokes.size() + 1);
+    drawing.strokes.push_back(stroke_of(std::move(path), place));
   }
   return drawing;
 }

@@ -165,7 +165,8 @@ class PathReader {
     const bool is_large = flag(), is_positive = flag();
     const Point start = current_, end = pair(origin);
     if (start == end) return;
-    if ((end - start).norm() < shortest || across == 0.0 || upwards == 0.0 || across > straight || upwards > straight) return line_to(end);
+    const auto [least, most] = std::minmax(across, upwards);
+    if ((end - start).norm() < shortest || least == 0.0 || most > straight) return line_to(end);
     const EllipticalArc arc = arc_between(start, end, {across, upwards}, rotation, is_large, is_positive);
     const double radius = std::max(arc.axis.norm(), arc.other.norm());
     const int pieces = pieces_of(std::abs(arc.sweep) / std::sqrt(8.0 * tolerance_ / radius));

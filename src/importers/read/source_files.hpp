@@ -36,8 +36,8 @@ struct FilePlan {
 /// Of a file, from its path within the source.
 using FilePlanner = std::function<FilePlan(std::string_view path)>;
 
-/// Reads the files of a directory (links are not followed), of a tarball (.tgz or .tar) or of a zip; nothing is unpacked
-/// to disk. Any other regular file is the only one of its source.
+/// Reads the files of a directory (links are not followed), of a tarball (.tgz or .tar) or of a zip; nothing is
+/// unpacked to disk. Any other regular file is the only one of its source.
 /// @throws FileError if the source cannot be opened or read, or this build cannot read archives; FormatError naming
 ///         source and entry if it is damaged, exceeds the limits, or contains a path that leaves the archive
 SourceFiles read_source(const std::filesystem::path& source, const FilePlanner& plan, const SourceLimits& limits = {});
@@ -47,6 +47,7 @@ SourceFiles read_archive(const std::filesystem::path& path, std::string_view for
                          const SourceLimits& limits);
 
 /// Why a file of this size is skipped; empty: it is read. @throws FormatError naming it if it must not be so large
-std::string size_reason(std::uintmax_t bytes, const FilePlan& plan, const SourceLimits& limits, const std::string& name);
+std::string size_reason(std::uintmax_t bytes, const FilePlan& plan, const SourceLimits& limits,
+                        const std::string& name);
 
 }  // namespace calligraphy

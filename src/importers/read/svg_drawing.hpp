@@ -1,11 +1,14 @@
 // The paths of an SVG file that draws one character; private to the importers.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace calligraphy {
+
+inline constexpr std::size_t max_svg_paths = 1024;  ///< of a character; no drawing has more
 
 struct SvgPath {
   std::string data;   ///< attribute d
@@ -19,8 +22,9 @@ struct SvgDrawing {
   std::vector<SvgPath> paths;
 };
 
-/// Paths in the order of the document, which has a square frame of this size [unit], by its viewBox or, without one, by
-/// width and height. Only the five predefined entities of XML are expanded. `name` is used in messages.
+/// Paths in the order of the document, at most one more than max_svg_paths. It has a square frame of this size [unit], by
+/// its viewBox or, without one, by width and height. Only the five predefined entities of XML are expanded. `name` is
+/// used in messages.
 /// @throws FormatError naming the place, also for a transform
 SvgDrawing parse_svg(std::string_view svg, double size, const std::string& name);
 
