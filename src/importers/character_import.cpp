@@ -44,7 +44,7 @@ bool is_misdirected(const StrokeInput& stroke) {
 
 /// Fits a stroke. Its label decides unless the recognised kind follows the drawing much more closely or, if the label
 /// is doubtful because it may belong to another stroke, just as closely.
-StrokeInput fitted_stroke(const DrawnStroke& drawn, const recognition::Outline& outline, bool doubtful,
+StrokeInput fitted_stroke(const SourceStroke& drawn, const recognition::Outline& outline, bool doubtful,
                           ImportedStroke& result) {
   constexpr double of_pen = 0.018;     // [em]; a label is not questioned within this distance of the drawing
   constexpr double much_closer = 0.7;  // [1]
@@ -73,7 +73,7 @@ struct LabelledFit {
 };
 
 /// @throws FormatError naming the place and the stroke that cannot be fitted
-LabelledFit fit_labelled(const std::vector<DrawnStroke>& drawn, const std::vector<recognition::Outline>& outlines,
+LabelledFit fit_labelled(const std::vector<SourceStroke>& drawn, const std::vector<recognition::Outline>& outlines,
                          const DrawingFile& file) {
   LabelledFit result{std::vector<StrokeInput>(drawn.size()), std::vector<ImportedStroke>(drawn.size())};
   const auto fit_one = [&](std::size_t i, bool doubtful) {
@@ -100,7 +100,7 @@ LabelledFit fit_labelled(const std::vector<DrawnStroke>& drawn, const std::vecto
 }
 
 /// Makes strokes cross that cross in the drawing. Returns the crossings of the drawing.
-std::vector<recognition::CrossingStrokes> keep_crossings(const std::vector<DrawnStroke>& drawn, LabelledFit& fit) {
+std::vector<recognition::CrossingStrokes> keep_crossings(const std::vector<SourceStroke>& drawn, LabelledFit& fit) {
   std::vector<recognition::Path> sources;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     sources.push_back(recognition::without_ends(drawn[i].path, fit.strokes[i].half_width));
@@ -113,7 +113,7 @@ std::vector<recognition::CrossingStrokes> keep_crossings(const std::vector<Drawn
 }
 
 /// Adds ink, provided that every stroke has an outline.
-void add_ink(const std::vector<DrawnStroke>& drawn, const std::vector<recognition::Outline>& outlines,
+void add_ink(const std::vector<SourceStroke>& drawn, const std::vector<recognition::Outline>& outlines,
              InkDetail detail, std::vector<StrokeInput>& strokes) {
   const auto is_missing = [](const recognition::Outline& outline) { return outline.empty(); };
   if (detail == InkDetail::none || std::any_of(outlines.begin(), outlines.end(), is_missing)) return;
@@ -125,7 +125,7 @@ void add_ink(const std::vector<DrawnStroke>& drawn, const std::vector<recognitio
 /// The character made from one drawing.
 ImportedCharacter imported(const DrawingFile& file, Drawing drawing, const ImportOptions& options) {
   std::vector<recognition::Outline> outlines;
-  for (const DrawnStroke& stroke : drawing.strokes) outlines.emplace_back(std::span(stroke.outline));
+  for (const SourceStroke& stroke : drawing.strokes) outlines.emplace_back(std::span(stroke.outline));
   LabelledFit fit = fit_labelled(drawing.strokes, outlines, file);
   const std::vector<recognition::CrossingStrokes> crossings = keep_crossings(drawing.strokes, fit);
   add_ink(drawing.strokes, outlines, options.ink, fit.inputs);

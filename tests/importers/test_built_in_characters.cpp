@@ -249,7 +249,7 @@ Source kanjivg(const std::filesystem::path& package) {
     std::ostringstream name;
     name << std::hex << std::setw(5) << std::setfill('0') << static_cast<unsigned>(character.code) << ".svg";
     const std::string svg = read_file(package / "kanji" / name.str(), 1 << 20);
-    for (const DrawnStroke& stroke : parse_kanjivg(svg, name.str()).strokes) {
+    for (const SourceStroke& stroke : parse_kanjivg(svg, name.str()).strokes) {
       source.labels[character.code].push_back({stroke.label, ids_of_kanjivg_label(stroke.label)});
     }
   }

@@ -33,7 +33,7 @@ std::string complaint(const std::string& text) {
 
 Character fitted(char32_t code, const std::string& json) {
   std::vector<StrokeInput> strokes;
-  for (const DrawnStroke& stroke : parse_hanzi_writer(json, encode_utf8(code) + ".json")) {
+  for (const SourceStroke& stroke : parse_hanzi_writer(json, encode_utf8(code) + ".json")) {
     strokes.push_back(recognition::fit_brush_stroke(stroke.path, Outline(std::span(stroke.outline)), {}).stroke);
   }
   return make_character(code, strokes);

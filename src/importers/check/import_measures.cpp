@@ -28,7 +28,7 @@ std::vector<std::vector<InkDisc>> stored_ink(char32_t code, const std::vector<St
 }
 
 /// Measures the ink as stored and, for comparison, ink without offsets and the typical ink of each kind.
-void measure_ink(const std::vector<DrawnStroke>& drawn, const std::vector<recognition::Outline>& outlines,
+void measure_ink(const std::vector<SourceStroke>& drawn, const std::vector<recognition::Outline>& outlines,
                  const std::vector<recognition::Path>& paths, std::vector<StrokeInput> strokes,
                  ImportedCharacter& result) {
   const char32_t code = result.character.code;
@@ -44,7 +44,7 @@ void measure_ink(const std::vector<DrawnStroke>& drawn, const std::vector<recogn
 }
 
 /// True if the drawing clearly contradicts the label of a stroke imported as `id`.
-bool contradicts_label(const DrawnStroke& drawn, const ImportedStroke& stroke, int id) {
+bool contradicts_label(const SourceStroke& drawn, const ImportedStroke& stroke, int id) {
   if (stroke.label_agrees || drawn.label_ids.empty()) return false;
   // A shape that overrides the label does, unless the label is a dot's, which may fall in any direction.
   if (id == stroke.recognised && !drawn.allows(8)) return true;
@@ -53,7 +53,7 @@ bool contradicts_label(const DrawnStroke& drawn, const ImportedStroke& stroke, i
 
 }  // namespace
 
-void measure_import(const std::vector<DrawnStroke>& drawn, const std::vector<recognition::Outline>& outlines,
+void measure_import(const std::vector<SourceStroke>& drawn, const std::vector<recognition::Outline>& outlines,
                     const std::vector<StrokeInput>& strokes,
                     const std::vector<recognition::CrossingStrokes>& crossings, ImportedCharacter& result) {
   std::vector<recognition::Path> paths;

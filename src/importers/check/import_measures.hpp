@@ -14,7 +14,7 @@
 namespace calligraphy {
 
 /// Adds the measures to `result`, whose character is made of `strokes`. `outlines` and `crossings`: of the drawing.
-void measure_import(const std::vector<DrawnStroke>& drawn, const std::vector<recognition::Outline>& outlines,
+void measure_import(const std::vector<SourceStroke>& drawn, const std::vector<recognition::Outline>& outlines,
                     const std::vector<StrokeInput>& strokes,
                     const std::vector<recognition::CrossingStrokes>& crossings, ImportedCharacter& result);
 

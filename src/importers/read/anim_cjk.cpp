@@ -57,7 +57,7 @@ std::vector<std::vector<Point>> anim_outline(const SvgPath& path) {
   return polygons;
 }
 
-void add_path(const SvgPath& path, std::map<int, DrawnStroke>& strokes) {
+void add_path(const SvgPath& path, std::map<int, SourceStroke>& strokes) {
   if (const int clipped = clipped_stroke(path.clip); clipped > 0) {
     std::vector<Point>& median = strokes[clipped].path;
     if (!median.empty()) return;  // that of a later part begins beside the character
@@ -83,7 +83,7 @@ bool is_anim_cjk(std::string_view svg) {
 Drawing parse_anim_cjk(std::string_view svg, const std::string& name) {
   SvgDrawing paths = parse_svg(svg, anim_units_per_em, name);
   if (paths.paths.size() > max_svg_paths) throw FormatError(name + ": more than 1024 paths");
-  std::map<int, DrawnStroke> strokes;
+  std::map<int, SourceStroke> strokes;
   for (const SvgPath& path : paths.paths) {
     try {
       add_path(path, strokes);

@@ -15,7 +15,7 @@ namespace {
 Drawing pen_drawing(const DrawingFile& file) {
   Drawing drawing = parse_kanjivg(file.text, file.place);
   drawing.notice = with_plain_line_ends(drawing.notice, file.place);
-  for (DrawnStroke& stroke : drawing.strokes) stroke.label_ids = ids_of_kanjivg_label(stroke.label);
+  for (SourceStroke& stroke : drawing.strokes) stroke.label_ids = ids_of_kanjivg_label(stroke.label);
   return drawing;
 }
 

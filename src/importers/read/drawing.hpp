@@ -31,7 +31,7 @@ struct DrawingFile {
   std::string text;
 };
 
-struct DrawnStroke {
+struct SourceStroke {
   std::vector<Point> path;         ///< the median of a brush stroke or the line of a pen [em]
   std::vector<std::vector<Point>> outline;  ///< of a brush stroke: polygons that are filled together; otherwise empty
   std::string label;               ///< empty if there is none
@@ -41,7 +41,7 @@ struct DrawnStroke {
 };
 
 struct Drawing {
-  std::vector<DrawnStroke> strokes;  ///< in writing order
+  std::vector<SourceStroke> strokes;  ///< in writing order
   std::string notice;                ///< the file's own copyright notice
   std::string correction;            ///< why the order of the strokes was changed; empty: it was not
   bool letters_unused = false;       ///< there are letters for the character, but not one per stroke

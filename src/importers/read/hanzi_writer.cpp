@@ -35,13 +35,13 @@ class Reader {
     }
   }
 
-  std::vector<DrawnStroke> strokes() const {
+  std::vector<SourceStroke> strokes() const {
     if (!root_.is_object()) fail("", "expected an object");
     const auto medians = root_.find("medians");
     if (medians == root_.end()) fail("medians", "missing");
     if (!medians->is_array() || medians->empty()) fail("medians", "expected a non-empty array");
     if (medians->size() > max_strokes) fail("medians", "more than " + std::to_string(max_strokes) + " strokes");
-    std::vector<DrawnStroke> result;
+    std::vector<SourceStroke> result;
     for (std::size_t i = 0; i < medians->size(); ++i) {
       result.push_back({median((*medians)[i], place_in("medians", i)), {}, {}, {}});
     }
@@ -146,7 +146,7 @@ struct MemberSearch : nlohmann::json_sax<Json> {
 
 Point hanzi_writer_em(const Point& units) { return Point(units.x(), units.y() - baseline) / units_per_em; }
 
-std::vector<DrawnStroke> parse_hanzi_writer(std::string_view json, const std::string& name) {
+std::vector<SourceStroke> parse_hanzi_writer(std::string_view json, const std::string& name) {
   return Reader(json, name).strokes();
 }
 

@@ -17,7 +17,7 @@ Point hanzi_writer_em(const Point& units);
 /// has none. The file has 1024 units per em and the baseline at -124; the result is in the unit square, y up. `name` is
 /// used in messages.
 /// @throws FormatError naming the place
-std::vector<DrawnStroke> parse_hanzi_writer(std::string_view json, const std::string& name);
+std::vector<SourceStroke> parse_hanzi_writer(std::string_view json, const std::string& name);
 
 /// The member "character" of a JSON text, as far as it can be read; graphics.txt has it.
 std::optional<std::string> character_member(std::string_view json);

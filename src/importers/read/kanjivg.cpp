@@ -16,9 +16,9 @@ constexpr std::size_t max_label = 64;  // [byte]
 constexpr double svg_units_per_em = 109.0;
 constexpr double svg_tolerance = 5e-5;  // [em]
 
-DrawnStroke stroke_of(SvgPath path, const std::string& place) {
+SourceStroke stroke_of(SvgPath path, const std::string& place) {
   if (path.label.size() > max_label) throw FormatError(place + ": kvg:type is longer than 64 bytes");
-  DrawnStroke stroke;
+  SourceStroke stroke;
   try {
     decode_utf8(path.label);
     stroke.path = flattened_path(path.data, svg_tolerance * svg_units_per_em);

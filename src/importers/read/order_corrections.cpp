@@ -56,7 +56,7 @@ std::map<char32_t, OrderCorrection> parse_corrections(std::string_view table) {
 
 }  // namespace
 
-std::string correct_order(char32_t code, std::vector<DrawnStroke>& strokes) {
+std::string correct_order(char32_t code, std::vector<SourceStroke>& strokes) {
   static const std::map<char32_t, OrderCorrection> corrections = parse_corrections(built_in::order_corrections);
   constexpr double same_place = 0.01;  // [em]; at the source another stroke begins farther away
   const auto found = corrections.find(code);
@@ -65,7 +65,7 @@ std::string correct_order(char32_t code, std::vector<DrawnStroke>& strokes) {
   if (strokes.size() < correction.first + correction.strokes.size()) return {};
   const Point begins = strokes[correction.first].path.front();
   if ((begins - hanzi_writer_em(correction.start)).norm() > same_place) return {};  // the source was mended
-  const std::vector<DrawnStroke> drawn = strokes;
+  const std::vector<SourceStroke> drawn = strokes;
   for (std::size_t i = 0; i < correction.strokes.size(); ++i) {
     strokes[correction.first + i] = drawn[correction.strokes[i]];
   }
