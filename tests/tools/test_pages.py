@@ -18,6 +18,15 @@ LONG = {"tradeoff --out out", "stability --out out"}
 SOME = "一永和九年福十三"
 
 
+#: Recordings of a pen that a reader may have: two characters of a stroke each, and one in two other formats.
+READERS_OWN = {
+    "lesson.inkml": '<ink xmlns="http://www.w3.org/2003/InkML">'
+                    + "<traceGroup><trace>1 1, 5 2, 9 1</trace></traceGroup>" * 2 + "</ink>",
+    "永.json": '[{"points": [{"x": 1, "y": 1, "time": 1700000000000}, {"x": 9, "y": 2, "time": 1700000000200}]}]',
+    "十-1.svc": "3\n100 100 0 1\n300 120 100 1\n500 100 200 1\n",
+}
+
+
 def documented_commands():
     """The arguments of each command once, and where it stands."""
     found = {}
@@ -36,6 +45,8 @@ class Pages(ProgramTest):
             (self.directory / Path(package).name).symlink_to(package)
         shutil.copytree(ROOT / "examples", self.directory / "examples")
         shutil.copy(ROOT / "examples" / "pupil.txt", self.directory / "pens.txt")  # the reader's own
+        for name, content in READERS_OWN.items():
+            (self.directory / name).write_text(content, encoding="utf-8")
         for place, words in documented_commands():
             arguments, output = list(words), None
             if ">" in arguments:
