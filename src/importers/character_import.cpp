@@ -193,6 +193,9 @@ ImportResult import_drawings(const std::filesystem::path& path, const ImportOpti
   std::vector<ImportedCharacter> characters = usable_of(results, source);
   ImportResult result{{}, report_of(source.kind, characters)};
   result.list.provenance = provenance(source, options, characters.front().notice, result.report.notes);
+  if (const std::size_t corrected = result.report.corrected.size(); corrected > 0) {
+    result.list.provenance.attribution += "; stroke orders of " + std::to_string(corrected) + " corrected";
+  }
   result.report.skipped = std::move(source.skipped);
   for (ImportedCharacter& character : characters) result.list.characters.push_back(std::move(character.character));
   return result;
