@@ -111,6 +111,40 @@ TEST_CASE("InkML is read with differences, hexadecimal values, contexts, continu
   CHECK(import.notes.empty());
 }
 
+TEST_CASE("InkML's * repeats the number before it, be it a value or a difference", "[importers]") {
+  const InkImport import = read("<ink><trace>0 0,'10 '1,* *,\"2 *,* *</trace></ink>");  // x 0 10 20 32 46, y 0 1 2 3 4
+  const PenStroke& stroke = import.traces.at(0).strokes.at(0);
+  CHECK((stroke.at(2).point - stroke[0].point).x() == Approx(0.8 * 20.0 / 46.0));
+  CHECK((stroke.at(4).point - stroke.at(3).point).x() == Approx(0.8 * 14.0 / 46.0));
+  CHECK((stroke[0].point - stroke[4].point).y() == Approx(0.8 * 4.0 / 46.0));
+}
+
+TEST_CASE("InkML's characters may be named apart from their traces", "[importers]") {
+  const std::string traces = "<ink><annotation type='truth'>$x^2$</annotation><trace id='0'>0 0,9 0</trace>"
+                             "<trace id='1'>4 0,4 9</trace><trace id='2'>0 0,8 0</trace><trace id='3'>1 1</trace>";
+  const auto group = [](const std::string& label, const std::string& ids) {
+    std::string text = "<traceGroup><annotation type='truth'>" + label + "</annotation>";
+    for (const char id : ids) text += std::string("<traceView traceDataRef='#") + id + "'/>";
+    return text + "</traceGroup>";
+  };
+  const std::string outer = traces + "<traceGroup><annotation type='truth'>Segmentation</annotation>";
+  const InkImport import = read(outer + group("一", "2") + group("十", "01") + "</traceGroup></ink>");
+  REQUIRE(import.traces.size() == 2);
+  CHECK((import.traces[0].character == U'一' && import.traces[0].strokes.size() == 1));
+  CHECK((import.traces[1].character == U'十' && import.traces[1].strokes.size() == 2));
+  CHECK(is_noted(import, "1 traces that no traceView names were left out"));
+  CHECK(complaint(traces + group("一", "4") + "</ink>").find("names '4', which is no trace") != std::string::npos);
+  CHECK(complaint(traces + group("一", "0") + group("二", "0") + "</ink>").find("two groups") != std::string::npos);
+}
+
+TEST_CASE("InkML's integers are of the unit and its resolution", "[importers]") {
+  const InkImport import = read(
+      "<ink><context><inkSource><traceFormat><channel name='X'/><channel name='Y'/><channel name='OE' type='integer' "
+      "max='90' units='deg'/></traceFormat><channelProperties><channelProperty channel='OE' name='resolution' "
+      "value='100' units='1/deg'/></channelProperties></inkSource></context><trace>0 0 6000,9 9 4500</trace></ink>");
+  CHECK(import.traces.at(0).strokes.at(0).at(1).stylus.altitude == Approx(45.0 * degree));
+}
+
 TEST_CASE("signature_pad is read in both its forms, with times from 0", "[importers]") {
   const InkImport import = read(signature_pad, "永-2.json");
   CHECK(import.format == InkFormat::signature_pad);
@@ -135,6 +169,8 @@ TEST_CASE("Tegaki's characters keep their place in the square", "[importers]") {
   CHECK(import.traces[0].strokes[1][0].stylus.pressure == 0.75);
   CHECK(import.traces[1].character == U'一');
   check_sample(import.traces[1].strokes.at(0).at(0), 0.5, 0.5, 0.0);
+  const std::string bare = "<character><utf8>一</utf8><strokes><stroke><point x='100' y='500'/></stroke></strokes></character>";
+  check_sample(read(bare).traces.at(0).strokes.at(0).at(0), 0.1, 0.5, 0.0);  // of 1000, as Tegaki takes it
 }
 
 TEST_CASE("SVC is read with the pen in the air and y up", "[importers]") {
@@ -154,7 +190,7 @@ TEST_CASE("SVC is read with the pen in the air and y up", "[importers]") {
   CHECK(is_noted(import, "tenths of a degree"));
   CHECK(is_noted(import, "pressure is of 1023"));
   CHECK(is_noted(import, "y is taken to point up"));
-  CHECK(read("2\n0 0 5 1\n9 9 15 1\n").traces.at(0).strokes.at(0).size() == 2);
+  CHECK(is_noted(read("1\n0 0 5 1\n9 9 15 1\n"), "has 2 samples: the first line says 1"));
 }
 
 TEST_CASE("a table is read by the names of its columns, and a gap in a field is not known", "[importers]") {
@@ -169,6 +205,9 @@ TEST_CASE("a table is read by the names of its columns, and a gap in a field is 
   CHECK(trace.strokes[0][0].stylus.altitude == Approx(60.0 * degree));
   CHECK(trace.strokes[0][0].stylus.azimuth == Approx(-90.0 * degree));  // towards y, down
   CHECK(std::isnan(import.traces[1].strokes[0][0].stylus.altitude));
+  const InkImport tablet = read("T;X;Y;P;Altitude;Azimuth\n1;0;0;9;600;900\n9;1;1;0;600;900\n17;2;2;9;600;900\n");
+  CHECK((tablet.traces.at(0).strokes.size() == 2 && is_noted(tablet, "where the pressure is above 0")));
+  CHECK(tablet.traces[0].strokes[0][0].stylus.azimuth == Approx(0.0).margin(1e-12));  // Wintab's east
   CHECK(complaint(csv).find("永.txt:2: the pressure is '0,0': expected a number") != std::string::npos);
 }
 
@@ -220,6 +259,7 @@ TEST_CASE("what cannot be read is refused with the place and the value", "[impor
       {"x,pos_x,y,stroke\n", "'x' and 'pos_x' may both be"},
       {"x,y,z\n", "no column stroke or pen_down, which tells pen-downs apart; the columns are 'x', 'y', 'z'"},
       {"a,b\n1,2\n", "no column x; the columns are 'a', 'b'"},
+      {"x,y,p\n1,2,3\n", "which tells pen-downs apart, and the pressure is never 0"},
       {"x,y,stroke\n1,2\n", "永.txt:2: has 2 fields"},
       {"3\n0 0 0 1\n1 1 1 1\n", "has 2 samples: the first line says 3"},
       {"2\n0 0 0 1\n1 1 1\n", "永.txt:3:"},

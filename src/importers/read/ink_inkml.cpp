@@ -31,7 +31,7 @@ constexpr InkUnit angle_units[] = {
 constexpr InkUnit force_units[] = {{"N", 1.0}, {"g", 9.80665e-3}};
 
 template <std::size_t count>
-double unit_in(const InkUnit (&units)[count], std::string_view name) {
+double unit_in(const InkUnit (&units)[count], std::string_view name) noexcept {
   for (const InkUnit& unit : units) {
     if (unit.name == name) return unit.value;
   }
@@ -44,9 +44,17 @@ struct InkChannel {
   ChannelUse use = ChannelUse::other;
   bool is_intermittent = false;
   std::string units = {};
+  double per_unit = 1.0;  ///< how many of its values are one of its units
   double least = not_declared, most = not_declared, otherwise = 0.0;
   bool is_reversed = false;
+  std::string name = {};
+  bool is_integer = false;
 };
+
+template <std::size_t count>
+double unit_of(const InkChannel& channel, const InkUnit (&units)[count]) noexcept {
+  return unit_in(units, channel.units) / channel.per_unit;
+}
 
 struct ChannelFormat {
   std::vector<InkChannel> channels;
@@ -68,7 +76,7 @@ ChannelUse use_of(std::string_view name) {
 /// How the values of a channel are given, which holds until it changes.
 struct ChannelState {
   int differences = 0;  ///< 0: the value itself, 1: its difference from the last one, 2: the difference of differences
-  double value = 0.0, speed = 0.0;
+  double value = 0.0, speed = 0.0, change = 0.0;
 };
 
 /// Reads the values in a trace, one point after the other.
@@ -103,9 +111,10 @@ class TraceText {
     }
     if (rest_.empty()) fail("a point has too few values");
     switch (rest_.front()) {
-      case '*':
+      case '*':  // the number before stands again: the value, its difference or the difference of differences
         rest_.remove_prefix(1);
-        return state.value;
+        if (state.differences == 2) state.speed += state.change;
+        return state.differences == 0 ? state.value : state.value += state.speed;
       case '?':
         rest_.remove_prefix(1);
         return otherwise;
@@ -122,6 +131,7 @@ class TraceText {
       state.speed = number - state.value;
       return state.value = number;
     }
+    state.change = number;
     state.speed = state.differences == 1 ? number : state.speed + number;
     return state.value += state.speed;
   }
@@ -169,6 +179,7 @@ class InkmlReader {
     frames_.push_back({root, {}, label_of(root), no_group, false});
     default_format_ = child_named(root, "traceFormat");
     walk_elements(root, [this](pugi::xml_node node) { enter(node); }, [this](pugi::xml_node node) { leave(node); });
+    group_by_views();
     if (has_timed_ && has_untimed_) fail("some traces have a unit of time or times, others have none");
     if (has_timed_) file_.time_unit = 1.0;
     if (angle_is_declared_) file_.angle_unit = 1.0;
@@ -185,6 +196,12 @@ class InkmlReader {
     std::string label;
     std::size_t group = no_group;
     bool is_definition = false;
+    std::size_t view = no_group;
+  };
+  /// What names a character that is written with traces elsewhere in the file.
+  struct View {
+    std::string label;
+    std::vector<std::string> traces = {};
   };
   struct Place {
     std::size_t group, run;
@@ -248,7 +265,48 @@ class InkmlReader {
       frames_.front().context = node;
     } else if (element == "trace" && !outer.is_definition) {
       read_trace(node);
+    } else if (element == "traceView" && !outer.label.empty() && !attribute_of(node, "traceDataRef").empty()) {
+      see_trace(node);
     }
+  }
+
+  void see_trace(pugi::xml_node node) {
+    Frame& frame = frames_.back();
+    if (frame.view == no_group) {
+      if (views_.size() >= max_ink_groups) fail("too many characters");
+      frame.view = views_.size();
+      views_.emplace_back().label = frame.label;
+    }
+    if (!attribute_of(node, "from").empty() || !attribute_of(node, "to").empty()) {
+      fail("a traceView of a part of a trace, with from or to, is not read");
+    }
+    const std::string_view reference = attribute_of(node, "traceDataRef");
+    views_[frame.view].traces.emplace_back(reference.substr(reference.find('#') + 1));
+  }
+
+  /// As in CROHME: all traces first, then groups that say which of them are one character.
+  void group_by_views() {
+    if (views_.empty()) return;
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> viewers;  // of a group and a run
+    std::vector<InkGroup> groups;
+    for (const View& view : views_) {
+      InkGroup& group = groups.emplace_back();
+      group.label = view.label;
+      for (const std::string& id : view.traces) {
+        const auto found = runs_.find(id);
+        if (found == runs_.end()) fail("a traceView names " + in_quotes(id) + ", which is no trace of the drawing");
+        const Place& place = found->second;
+        const auto [viewer, is_new] = viewers.try_emplace({place.group, place.run}, groups.size());
+        if (viewer->second != groups.size()) fail("two groups name the trace " + in_quotes(id));
+        if (is_new) group.runs.push_back(std::move(file_.groups[place.group].runs[place.run]));
+      }
+    }
+    std::size_t all = 0;
+    for (const InkGroup& group : file_.groups) all += group.runs.size();
+    if (all > viewers.size()) {
+      file_.notes.push_back(std::to_string(all - viewers.size()) + " traces that no traceView names were left out");
+    }
+    file_.groups = std::move(groups);
   }
 
   void leave(pugi::xml_node node) {
@@ -330,13 +388,13 @@ class InkmlReader {
 
   static bool is_time_declared(const ChannelFormat& format, std::optional<double> offset) {
     return std::all_of(format.channels.begin(), format.channels.end(), [&](const InkChannel& channel) {
-      return channel.use != ChannelUse::time || offset || !std::isnan(unit_in(time_units, channel.units));
+      return channel.use != ChannelUse::time || offset || !std::isnan(unit_of(channel, time_units));
     });
   }
 
   /// The orientations of a pen are in degrees unless they are declared to be in radians.
   static double angle(const InkChannel& channel, double value) {
-    const double unit = unit_in(angle_units, channel.units);
+    const double unit = unit_of(channel, angle_units);
     return value * (std::isnan(unit) ? angle_units[1].value : unit);
   }
 
@@ -346,22 +404,22 @@ class InkmlReader {
     switch (channel.use) {
       case ChannelUse::x:
       case ChannelUse::y: {
-        const double unit = unit_in(length_units, channel.units);
+        const double unit = unit_of(channel, length_units);
         const double coordinate = sign * value * (std::isnan(unit) ? 1.0 : unit);
         (channel.use == ChannelUse::x ? sample.point.x() : sample.point.y()) = coordinate;
         break;
       }
       case ChannelUse::height:
-        sample.stylus.height = sign * value * unit_in(length_units, channel.units);
+        sample.stylus.height = sign * value * unit_of(channel, length_units);
         break;
       case ChannelUse::time: {
-        const double unit = unit_in(time_units, channel.units);
+        const double unit = unit_of(channel, time_units);
         if (std::isnan(unit) && !offset) sample.time = value;
         else sample.time = value * (std::isnan(unit) ? 1e-3 : unit) + offset.value_or(0.0) * 1e-3;
         break;
       }
       case ChannelUse::force:
-        if (const double unit = unit_in(force_units, channel.units); !std::isnan(unit)) {
+        if (const double unit = unit_of(channel, force_units); !std::isnan(unit)) {
           sample.stylus.force = value * unit;
         } else if (channel.units == "%") {
           sample.stylus.pressure = value / 100.0;
@@ -416,10 +474,10 @@ class InkmlReader {
       pugi::xml_node format = child_named(context, "traceFormat");
       if (!format) format = referred(attribute_of(context, "traceFormatRef"));
       if (!format) format = child_named(source, "traceFormat");
-      if (format) return channels_of(format, rate);
+      if (format) return channels_of(format, rate, source);
       context = referred(attribute_of(context, "contextRef"));
     }
-    if (default_format_) return channels_of(default_format_, rate);
+    if (default_format_) return channels_of(default_format_, rate, {});
     return {{InkChannel{ChannelUse::x}, InkChannel{ChannelUse::y}}, rate};
   }
 
@@ -430,7 +488,7 @@ class InkmlReader {
     return value && *value > 0.0 && is_even ? *value : not_declared;
   }
 
-  ChannelFormat channels_of(pugi::xml_node node, double rate) {
+  ChannelFormat channels_of(pugi::xml_node node, double rate, pugi::xml_node source) {
     ChannelFormat format{{}, rate};
     for (const pugi::xml_node child : node.children()) {
       const std::string_view element = local_name(child);
@@ -445,6 +503,7 @@ class InkmlReader {
                            [use](const InkChannel& channel) { return channel.use == use; }) == 1;
     };
     if (!has(ChannelUse::x) || !has(ChannelUse::y)) fail("a traceFormat needs one channel X and one channel Y");
+    set_resolutions(format, child_named(source, "channelProperties"));
     InkChannel *x = nullptr, *y = nullptr;
     for (InkChannel& channel : format.channels) {
       if (channel.use == ChannelUse::x) x = &channel;
@@ -456,9 +515,25 @@ class InkmlReader {
     return format;
   }
 
+  /// Office writes hundredths of a degree so: units "deg", of which there are 100 to 1.
+  void set_resolutions(ChannelFormat& format, pugi::xml_node properties) const {
+    for (const pugi::xml_node property : properties.children()) {
+      const std::string_view units = attribute_of(property, "units");
+      if (attribute_of(property, "name") != "resolution" || !units.starts_with("1/")) continue;
+      const double value = number_of(property, "value", not_declared);
+      for (InkChannel& channel : format.channels) {
+        if (channel.name != attribute_of(property, "channel") || !channel.is_integer || !(value > 0.0)) continue;
+        channel.per_unit = value;
+        channel.units = units.substr(2);
+      }
+    }
+  }
+
   void add_channel(ChannelFormat& format, pugi::xml_node node, bool is_intermittent) {
     if (format.channels.size() >= max_channels) fail("a traceFormat has more than 64 channels");
     InkChannel channel{use_of(attribute_of(node, "name")), is_intermittent};
+    channel.name = attribute_of(node, "name");
+    channel.is_integer = attribute_of(node, "type") == "integer";
     channel.units = attribute_of(node, "units");
     channel.least = number_of(node, "min", not_declared);
     channel.most = number_of(node, "max", not_declared);
@@ -486,6 +561,7 @@ class InkmlReader {
   std::unordered_map<std::string, Place> runs_;
   std::map<std::size_t, ChannelFormat> formats_;
   std::vector<Frame> frames_;
+  std::vector<View> views_;
   pugi::xml_node default_format_;
   std::size_t traces_ = 0;
   bool has_timed_ = false, has_untimed_ = false;

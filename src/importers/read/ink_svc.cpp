@@ -73,10 +73,10 @@ InkFile read_svc(std::string_view text, std::string_view name) {
     }
     add_sample(group.runs.back(), sample, name);
   }
-  if (read != announced) {
-    fail_ink(name, "has " + std::to_string(static_cast<long long>(read)) + " samples: the first line says " +
-                       std::string(trimmed(text.substr(0, text.find('\n')))));
-  }
+  const std::string counts = "has " + std::to_string(static_cast<long long>(read)) + " samples: the first line says " +
+                             std::string(trimmed(text.substr(0, text.find('\n'))));
+  if (read < announced) fail_ink(name, counts);  // cut off
+  if (read > announced) file.notes.push_back(counts);
   return file;
 }
 

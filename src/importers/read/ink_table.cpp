@@ -133,6 +133,9 @@ class TableReader {
       }
       read_row();
     }
+    if (lifts_by_pressure_ && !is_ever_lifted_) fail_ink(name_, "there is no column stroke or pen_down, which tells pen-downs apart, "
+                                                               "and the pressure is never 0");
+    if (lifts_by_pressure_) file_.notes.emplace_back("the pen is on the paper where the pressure is above 0");
     return std::move(file_);
   }
 
@@ -172,7 +175,9 @@ class TableReader {
     };
     require(has(Role::x), "x");
     require(has(Role::y), "y");
-    require(has(Role::stroke) || has(Role::pen), "stroke or pen_down, which tells pen-downs apart");
+    lifts_by_pressure_ = !has(Role::stroke) && !has(Role::pen) && has(Role::pressure);
+    require(has(Role::stroke) || has(Role::pen) || lifts_by_pressure_,
+            "stroke or pen_down, which tells pen-downs apart");
     require(has(Role::tilt_x) == has(Role::tilt_y), "of the other tilt");
     if (has(Role::time)) file_.time_unit = units_[static_cast<std::size_t>(Role::time)];
     const double altitude_unit = units_[static_cast<std::size_t>(Role::altitude)];
@@ -203,7 +208,9 @@ class TableReader {
       trace_ = trace;
     }
     InkGroup& group = file_.groups.back();
-    const bool in_air = has(Role::pen) && !is_down(field(Role::pen));
+    const bool in_air = lifts_by_pressure_ ? !(number_or_nan(Role::pressure) > 0.0)
+                                           : has(Role::pen) && !is_down(field(Role::pen));
+    is_ever_lifted_ = is_ever_lifted_ || in_air;
     const bool begins = group.runs.empty() || group.runs.back().in_air != in_air || (!in_air && stroke != stroke_);
     if (begins) add_run(group, in_air, name_);
     stroke_ = stroke;
@@ -266,6 +273,7 @@ class TableReader {
   std::vector<std::string> fields_;
   std::string trace_, stroke_;
   bool has_tilts_ = false;
+  bool lifts_by_pressure_ = false, is_ever_lifted_ = false;
 };
 
 }  // namespace

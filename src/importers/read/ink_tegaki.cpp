@@ -8,6 +8,8 @@
 namespace calligraphy {
 namespace {
 
+constexpr double usual_square = 1000.0;  // edge; what Tegaki takes where a character does not say it
+
 class TegakiReader {
  public:
   explicit TegakiReader(std::string_view name) : name_(name) {
@@ -48,7 +50,18 @@ class TegakiReader {
   void leave(std::string_view element) {
     if (element != "character") return;
     is_in_character_ = false;
-    if (width_ > 0.0 && height_ > 0.0) file_.groups.back().square = std::max(width_, height_);
+    InkGroup& group = file_.groups.back();
+    if (width_ > 0.0 && height_ > 0.0) group.square = std::max(width_, height_);
+    else if (fits(group, usual_square)) group.square = usual_square;
+  }
+
+  static bool fits(const InkGroup& group, double square) {
+    for (const InkRun& run : group.runs) {
+      for (const TimedPoint& sample : run.samples) {
+        if (sample.point.minCoeff() < 0.0 || sample.point.maxCoeff() > square) return false;
+      }
+    }
+    return true;
   }
 
   TimedPoint point(pugi::xml_node node) {

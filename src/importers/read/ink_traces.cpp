@@ -103,6 +103,7 @@ void scale_angles(InkFile& file, std::string_view name) {
       unit = degree, words = "degrees";
     } else {
       unit = degree / 10.0;
+      file.azimuth_from_north = true;  // Wintab's
     }
     file.notes.push_back(std::string("azimuth and altitude are in ") + words + ", by their range");
   }
