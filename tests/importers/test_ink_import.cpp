@@ -158,6 +158,10 @@ TEST_CASE("signature_pad is read in both its forms, with times from 0", "[import
   const PenTrace older = read(old).traces.at(0);
   check_sample(older.strokes.at(0).at(1), 0.9, 0.5, 0.02);
   CHECK(std::isnan(older.strokes[0][0].stylus.pressure));
+  const std::string erased =
+      R"([{"points":[{"x":1,"y":1}]},{"compositeOperation":"destination-out","points":[{"x":1,"y":2}]}])";
+  CHECK(read(erased).traces.at(0).strokes.at(0)[0].buttons == -1);
+  CHECK(read(erased).traces.at(0).strokes.at(1)[0].buttons == 32);
 }
 
 TEST_CASE("Tegaki's characters keep their place in the square", "[importers]") {
@@ -169,7 +173,8 @@ TEST_CASE("Tegaki's characters keep their place in the square", "[importers]") {
   CHECK(import.traces[0].strokes[1][0].stylus.pressure == 0.75);
   CHECK(import.traces[1].character == U'一');
   check_sample(import.traces[1].strokes.at(0).at(0), 0.5, 0.5, 0.0);
-  const std::string bare = "<character><utf8>一</utf8><strokes><stroke><point x='100' y='500'/></stroke></strokes></character>";
+  const std::string bare =
+      "<character><utf8>一</utf8><strokes><stroke><point x='100' y='500'/></stroke></strokes></character>";
   check_sample(read(bare).traces.at(0).strokes.at(0).at(0), 0.1, 0.5, 0.0);  // of 1000, as Tegaki takes it
 }
 

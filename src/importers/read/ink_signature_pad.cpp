@@ -34,6 +34,7 @@ class SignaturePadReader : public nlohmann::json_sax<nlohmann::json> {
   }
   bool start_object(std::size_t) override {
     open('{');
+    if (levels_ == "[{") is_erasing_ = false, erased_from_ = group().runs.size();
     if (is_in_point()) point_ = sample_at(std::nan(""), std::nan(""));
     return true;
   }
@@ -42,6 +43,7 @@ class SignaturePadReader : public nlohmann::json_sax<nlohmann::json> {
       if (std::isnan(point_.point.x()) || std::isnan(point_.point.y())) fail("a point without x or y");
       add_sample(group().runs.back(), point_, name_);
     }
+    if (levels_ == "[{" && is_erasing_) erase();
     return close();
   }
   bool key(std::string& word) override {
@@ -53,7 +55,10 @@ class SignaturePadReader : public nlohmann::json_sax<nlohmann::json> {
   bool number_integer(std::int64_t value) override { return number(static_cast<double>(value)); }
   bool number_unsigned(std::uint64_t value) override { return number(static_cast<double>(value)); }
   bool number_float(double value, const std::string&) override { return number(value); }
-  bool string(std::string& text) override { return value_is_no_number(in_quotes(text)); }
+  bool string(std::string& text) override {
+    if (levels_ == "[{" && key_ == "compositeOperation") is_erasing_ = text == "destination-out";
+    return value_is_no_number(in_quotes(text));
+  }
   bool binary(nlohmann::json::binary_t&) override { return value_is_no_number("binary"); }
   bool parse_error(std::size_t position, const std::string&, const nlohmann::json::exception&) override {
     fail("not JSON at byte " + std::to_string(position));
@@ -74,6 +79,14 @@ class SignaturePadReader : public nlohmann::json_sax<nlohmann::json> {
   bool close() {
     levels_.pop_back();
     return true;
+  }
+
+  /// What takes ink away is kept, but is no writing.
+  void erase() {
+    constexpr int eraser = 32;  // of a Pointer Event's buttons
+    for (std::size_t i = erased_from_; i < group().runs.size(); ++i) {
+      for (TimedPoint& sample : group().runs[i].samples) sample.buttons = eraser;
+    }
   }
 
   double* member() {
@@ -107,6 +120,8 @@ class SignaturePadReader : public nlohmann::json_sax<nlohmann::json> {
   std::string levels_;            ///< brackets that are open
   std::size_t points_level_ = 0;  ///< of the array of points; 0: outside
   std::string key_;
+  bool is_erasing_ = false;       ///< the points of this object take ink away
+  std::size_t erased_from_ = 0;   ///< its first run
   TimedPoint point_;
 };
 
