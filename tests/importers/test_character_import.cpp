@@ -309,6 +309,37 @@ TEST_CASE("a file with a character a line is read line by line", "[practice]") {
   CHECK(has(complaint(directory.path()), "both Make Me a Hanzi and animCJK"));
 }
 
+TEST_CASE("pictures beside graphics.txt are left out, and names in other encodings are told", "[practice]") {
+  const TemporaryDirectory directory;
+  directory.write("graphics.txt", R"({"character":"一","medians":[[[100,400],[900,400]]]})");
+  directory.write("svgs/19968.svg",
+                  "<svg viewBox=\"0 0 1024 1024\"><g transform=\"scale(1, -1) translate(0, -900)\"/></svg>");
+  directory.write("\xCA\xAE.json", hanzi_writer_cross);  // 十 in GBK, U+02AE in UTF-8
+  directory.write("\xD3\xC0.json", hanzi_writer_cross);  // 永 in GBK
+  const ImportResult import = import_characters(directory.path());
+  CHECK(import.list.characters.size() == 1);
+  REQUIRE(import.report.skipped.size() == 3);
+  CHECK((import.report.skipped[0].unusable && has(import.report.skipped[0].reason, "its name is not in UTF-8")));
+  CHECK(has(import.report.skipped[1].reason, "its name is not in UTF-8"));
+  CHECK((!import.report.skipped[2].unusable && has(import.report.skipped[2].reason, "a picture of Make Me a Hanzi")));
+}
+
+TEST_CASE("KanjiVG as one XML file is read kanji by kanji", "[practice]") {
+  const TemporaryDirectory directory;
+  const auto kanji = [](const std::string& code, const std::string& data) {
+    return "<kanji id=\"kvg:kanji_" + code + "\">\n<g><path kvg:type=\"㇐\" d=\"" + data + "\"/></g></kanji>\n";
+  };
+  directory.write("kanjivg.xml", "<?xml version=\"1.0\"?>\n<!--By U. A.-->\n<kanjivg>\n" + kanji("00041", heng) +
+                                     kanji("04e8c", "M1,2B") + kanji("04e00", heng) + "</kanjivg>\n");
+  const ImportResult import = import_characters(directory.path() / "kanjivg.xml");
+  REQUIRE(import.list.characters.size() == 1);
+  CHECK(import.list.characters[0].code == U'一');
+  CHECK(import.list.provenance.licence_text == "By U. A.");
+  REQUIRE(import.report.skipped.size() == 2);
+  CHECK(import.report.skipped[1].path == "kanjivg.xml: kanji 04e8c");
+  CHECK(has(import.report.skipped[1].reason, "path data at byte 4"));
+}
+
 TEST_CASE("animCJK is in the frame of hanzi-writer-data, and the parts of its strokes belong together", "[practice]") {
   const std::string first = R"svg(<path id="z19968d1a" d="M100 476L600 476L600 516L100 516Z"/>)svg";
   // The other way round.

@@ -217,8 +217,9 @@ class Archive {
     if (result >= ARCHIVE_WARN) return;
     const char* const message = archive_error_string(reader_.get());
     if (unpacker_ && !unpacker_->failure().empty()) fail(entry, unpacker_->failure() + unpacker_->place());
-    fail(entry, std::string("damaged, or not a ") + (is_zip_ ? "zip: " : "tarball: ") +
-                    (message == nullptr ? "unreadable" : message) + (unpacker_ ? unpacker_->place() : ""));
+    const char* const kind = is_zip_ ? "zip: " : "tarball (a single file must not be packed): ";
+    fail(entry, std::string("damaged, or not a ") + kind + (message == nullptr ? "unreadable" : message) +
+                    (unpacker_ ? unpacker_->place() : ""));
   }
 
   bool next(archive_entry*& entry, const std::string& last) {

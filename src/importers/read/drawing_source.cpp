@@ -79,9 +79,31 @@ char32_t code_in_svg(std::string_view svg, DrawingForm form) {
   return 0;
 }
 
-/// The licence of the package itself, or where animCJK and packages made of it have it.
+/// One that draws a character for the eye, as in svgs and svgs-still of Make Me a Hanzi.
+bool is_picture(std::string_view svg) { return svg.find("\"scale(1, -1) translate(0, -900)\"") != svg.npos; }
+
+/// KanjiVG as one file, kanjivg.xml, has this as its root.
+bool has_kanji_elements(std::string_view xml) {
+  constexpr std::size_t head = 10000;  // [byte]; of a notice
+  return xml.substr(0, head).find("<kanjivg") != xml.npos;
+}
+
+/// Whether the name is of a zip that says it in another encoding. Two bytes of GBK or Shift JIS may look like a letter
+/// of UTF-8 before those of Chinese and Japanese.
+bool is_foreign_name(std::string_view path) {
+  constexpr char32_t radicals = 0x2E80;
+  try {
+    const std::u32string codes = decode_utf8(path.substr(path.rfind('/') + 1));
+    const std::size_t letters = codes.find(U'.');
+    return letters == 1 && codes[0] > 0x7F && codes[0] < radicals;
+  } catch (const FormatError&) {
+    return true;
+  }
+}
+
+/// The licence of the package itself, or where Make Me a Hanzi, animCJK and packages made of it have it.
 bool is_licence_file(std::string_view path) {
-  for (const std::string_view folder : {"licenses/", "licenses/APL/english/"}) {
+  for (const std::string_view folder : {"licenses/", "APL/english/"}) {
     const std::string end = std::string(folder) + std::string(licence_file);
     if (path == end || path.ends_with("/" + end)) return true;
   }
@@ -176,11 +198,16 @@ class Selection {
 
   /// What a name without meaning and content without a character lead to.
   void skip_nameless(const std::string& path, bool is_only, const char* where) {
+    if (is_foreign_name(path)) return skip(path, "its name is not in UTF-8: pack the files with names in UTF-8", true);
     if (!is_only) return skip(path, "not a character file");
     skip(path, std::string("neither its name nor ") + where + " says which character it has", true);
   }
 
   void take_svg(SourceFile file, const FileName& name, bool is_only) {
+    if (has_kanji_elements(file.text)) return take_kanji_elements(file);
+    if (is_picture(file.text)) {
+      return skip(file.path, "a picture of Make Me a Hanzi, which has the strokes in graphics.txt", is_only);
+    }
     const DrawingForm form = is_anim_cjk(file.text) ? DrawingForm::anim_cjk : DrawingForm::kanjivg;
     const bool is_brush = form == DrawingForm::anim_cjk;
     char32_t code = name.code != 0 ? name.code : is_brush ? name.decimal : name.hex;
@@ -192,6 +219,38 @@ class Selection {
     }
     const SourceKind kind = is_brush ? SourceKind::anim_cjk : SourceKind::kanjivg;
     add({kind, code, is_brush ? std::string() : name.order}, form, file.path, std::move(file.text));
+  }
+
+  /// <kanji id="kvg:kanji_06c38"> has what the <svg> of the file 06c38.svg has.
+  void take_kanji_elements(const SourceFile& file) {
+    const std::string_view text = file.text;
+    constexpr std::string_view start = "<kanji id=\"kvg:kanji_", stop = "</kanji>";
+    const std::string notice(text.substr(0, text.find("<kanjivg")));
+    constexpr std::size_t most_notices = 16 << 20;  // [byte]; of which the first character that is usable needs one
+    std::size_t number = 0;
+    for (std::size_t at = text.find(start); at != text.npos; at = text.find(start, at)) {
+      if (++number > options_.limits.entries) {
+        throw FormatError(place_in(name_, file.path) + ": more than " + std::to_string(options_.limits.entries) +
+                          " <kanji>");
+      }
+      at += start.size();
+      const std::size_t end = std::min(text.find(stop, at), text.size());
+      const std::string_view element = text.substr(at, end - at);
+      at = end;
+      unsigned code = 0;
+      from_chars(element.data(), element.data() + element.size(), code, 16);
+      const std::size_t inside = std::min(element.find('>'), element.size() - 1) + 1;
+      const std::size_t digits = std::min<std::size_t>(element.find('"'), 10);
+      const std::string path = file.path + ": kanji " + printable(element.substr(0, digits));
+      if (code == 0 || code > 0x10FFFF) {
+        skip(path, "its id is no code point", true);
+        continue;
+      }
+      add({SourceKind::kanjivg, code, {}}, DrawingForm::kanjivg, path,
+          (number * notice.size() < most_notices ? notice : "") + "<svg viewBox='0 0 109 109'>" +
+              std::string(element.substr(inside)) + "</svg>");
+    }
+    if (number == 0) skip(file.path, "has no <kanji id=\"kvg:kanji_...\">", true);
   }
 
   void take_json(SourceFile file, const FileName& name, bool is_only) {

@@ -45,11 +45,12 @@ std::string percent_decoded(std::string_view text) {
   return plain;
 }
 
-/// The only character of a text, unless it is of ASCII.
+/// The only character of a text, unless it is of an alphabet: in a zip, two bytes of GBK may look like such a letter.
 char32_t only_character(const std::string& text) {
   try {
     const std::u32string codes = decode_utf8(text);
-    if (codes.size() == 1 && codes[0] > 0x7F) return codes[0];
+    constexpr char32_t radicals = 0x2E80;
+    if (codes.size() == 1 && codes[0] >= radicals) return codes[0];
   } catch (const FormatError&) {  // the name is in another encoding
   }
   return 0;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
 
 #include "outline_area.hpp"
 #include "path_data.hpp"
@@ -31,7 +32,8 @@ class Reader {
     try {
       root_ = Json::parse(text);
     } catch (const Json::exception& error) {
-      fail("", std::string("not JSON: ") + error.what());
+      constexpr std::size_t most = 200;  // [byte]; it quotes what it has read
+      fail("", printable("not JSON: " + std::string(error.what()).substr(0, most)));
     }
   }
 

@@ -134,7 +134,8 @@ class TableReader {
       read_row();
     }
     if (lifts_by_pressure_ && !is_ever_lifted_) {
-      fail_ink(name_, "there is no column stroke or pen_down, which tells pen-downs apart, and the pressure is never 0");
+      fail_ink(name_, "there is no column stroke or pen_down, which tells pen-downs apart, and the pressure is never "
+                      "0");
     }
     if (lifts_by_pressure_) file_.notes.emplace_back("the pen is on the paper where the pressure is above 0");
     return std::move(file_);
