@@ -14,9 +14,9 @@ namespace calligraphy {
 bool is_utf8(std::string_view text) noexcept { return utf8::is_valid(text.begin(), text.end()); }
 
 bool is_utf16(std::string_view text) noexcept {
-  if (text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE")) return true;
   constexpr std::size_t sample = 64;  // [byte], of letters, digits and signs as every format has them in front
   if (text.size() < 4) return false;
+  if (text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE")) return true;
   const std::string_view front = text.substr(0, std::min(text.size(), sample) / 2 * 2);
   std::size_t zeros[2] = {0, 0};
   for (std::size_t i = 0; i < front.size(); ++i) zeros[i % 2] += front[i] == '\0' ? 1 : 0;
