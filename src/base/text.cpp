@@ -15,8 +15,9 @@ bool is_utf8(std::string_view text) noexcept { return utf8::is_valid(text.begin(
 
 bool is_utf16(std::string_view text) noexcept {
   constexpr std::size_t sample = 64;  // [byte], of letters, digits and signs as every format has them in front
-  if (text.size() < 4) return false;
-  if (text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE")) return true;
+  const bool has_mark = text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE");
+  if (text.size() < 4) return has_mark && text.size() == 3;  // of a line that ended within a character
+  if (has_mark) return true;
   const std::string_view front = text.substr(0, std::min(text.size(), sample) / 2 * 2);
   std::size_t zeros[2] = {0, 0};
   for (std::size_t i = 0; i < front.size(); ++i) zeros[i % 2] += front[i] == '\0' ? 1 : 0;
