@@ -314,14 +314,16 @@ TEST_CASE("pictures beside graphics.txt are left out, and names in other encodin
   directory.write("graphics.txt", R"({"character":"一","medians":[[[100,400],[900,400]]]})");
   directory.write("svgs/19968.svg",
                   "<svg viewBox=\"0 0 1024 1024\"><g transform=\"scale(1, -1) translate(0, -900)\"/></svg>");
+  directory.write("APL/english/ARPHICPL.TXT", "APL");
   directory.write("\xCA\xAE.json", hanzi_writer_cross);  // 十 in GBK, U+02AE in UTF-8
   directory.write("\xD3\xC0.json", hanzi_writer_cross);  // 永 in GBK
   const ImportResult import = import_characters(directory.path());
   CHECK(import.list.characters.size() == 1);
   REQUIRE(import.report.skipped.size() == 3);
-  CHECK((import.report.skipped[0].unusable && has(import.report.skipped[0].reason, "its name is not in UTF-8")));
-  CHECK(has(import.report.skipped[1].reason, "its name is not in UTF-8"));
-  CHECK((!import.report.skipped[2].unusable && has(import.report.skipped[2].reason, "a picture of Make Me a Hanzi")));
+  CHECK(import.list.provenance.licence_text == "APL");
+  CHECK((!import.report.skipped[0].unusable && has(import.report.skipped[0].reason, "a picture of Make Me a Hanzi")));
+  CHECK((import.report.skipped[1].unusable && has(import.report.skipped[1].reason, "its name is not in UTF-8")));
+  CHECK(has(import.report.skipped[2].reason, "its name is not in UTF-8"));
 }
 
 TEST_CASE("KanjiVG as one XML file is read kanji by kanji", "[practice]") {

@@ -1,9 +1,11 @@
 """Damages files and lets a program read them: how it ends, how long it takes and how much memory, at most.
 
-usage: measure_mutants.py PROGRAM COUNT [--seed N] [--most-memory MIB] [--most-time S] -- COMMAND {} ... SEED_FILE ...
+usage: measure_mutants.py PROGRAM COUNT [--seed N] [--in-zip] [--most-memory MIB] [--most-time S]
+                          -- COMMAND {} ... SEED_FILE ...
 
 {} in the command stands for the damaged file, which has the name of the seed file; every argument after the last {}
-that names a file is a seed, and COUNT mutants are made of each. Kept are those that do not end with 0 or 1, or take
+that names a file is a seed, and COUNT mutants are made of each. With --in-zip the program gets an undamaged zip of the
+damaged file, whose checksum so does not protect it. Kept are those that do not end with 0 or 1, or take
 too much.
 
 example: measure_mutants.py calligraphy 20000 -- traces --text 永 -o /dev/null {} pen.svc pen.inkml
@@ -15,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zipfile
 from pathlib import Path
 
 PIECES = (b"9" * 20, b"-1", b"nan", b"inf", b"1e308", b",,,", b"\n", b"\0", b"<", b">", b'"',
@@ -48,17 +51,21 @@ def ended(command):
     return running.returncode, time.monotonic() - begun, usage.ru_maxrss
 
 
-def measure(command, seeds, count, draw, most_memory=64.0, most_time=2.0):
+def measure(command, seeds, count, draw, most_memory=64.0, most_time=2.0, in_zip=False):
     """Runs the command, whose {} is a mutant, `count` times for each of the seeds: pairs of a name and bytes. Prints a
     line a seed, keeps mutants beyond the limits, and returns their number."""
     beyond = 0
     with tempfile.TemporaryDirectory() as directory:
         for name, whole in seeds:
             worst_time, worst_memory, outcomes = 0.0, 0, {}
-            path = Path(directory) / name
+            path = Path(directory) / (name + ".zip" if in_zip else name)
             for i in range(count):
                 data = damaged(whole, draw)
-                path.write_bytes(data)
+                if in_zip:
+                    with zipfile.ZipFile(path, "w") as packed:
+                        packed.writestr(name, data)
+                else:
+                    path.write_bytes(data)
                 code, seconds, memory = ended([str(path) if word == "{}" else word for word in command])
                 worst_time, worst_memory = max(worst_time, seconds), max(worst_memory, memory)
                 outcomes[code] = outcomes.get(code, 0) + 1
@@ -79,6 +86,7 @@ def main():
     parser.add_argument("program", type=lambda text: str(Path(text).resolve()))
     parser.add_argument("count", type=int)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--in-zip", action="store_true")
     parser.add_argument("--most-memory", type=float, default=64.0)
     parser.add_argument("--most-time", type=float, default=2.0)
     options = parser.parse_args(own)
@@ -88,7 +96,7 @@ def main():
     seeds = [Path(word) for word in rest[last:] if Path(word).is_file()]
     command = [options.program, *rest[:last], *(word for word in rest[last:] if not Path(word).is_file())]
     return 1 if measure(command, [(seed.name, seed.read_bytes()) for seed in seeds], options.count,
-                        random.Random(options.seed), options.most_memory, options.most_time) else 0
+                        random.Random(options.seed), options.most_memory, options.most_time, options.in_zip) else 0
 
 
 if __name__ == "__main__":
