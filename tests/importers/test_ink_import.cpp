@@ -291,6 +291,7 @@ TEST_CASE("deep nesting neither crashes nor takes long", "[importers]") {
   groups += "<trace>1 2</trace>";
   for (int i = 0; i < 100000; ++i) groups += "</traceGroup>";
   CHECK(read(groups + "</ink>").traces.size() == 1);
+  CHECK(complaint("<ink>" + std::string(16 << 20, ' ') + "</ink>").find("larger than 16 MiB") != std::string::npos);
   CHECK(complaint(brackets).find("nested too deeply") != std::string::npos);
 }
 

@@ -8,6 +8,8 @@
 namespace calligraphy {
 
 void load_ink_xml(pugi::xml_document& document, std::string_view text, std::string_view name) {
+  constexpr std::size_t most = 16 << 20;  // [byte]; takes 16 times that in memory, and a page of writing has 0.1 MB
+  if (text.size() > most) fail_ink(name, "larger than 16 MiB: divide it");
   const auto result = document.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
   if (result) return;
   const auto end = text.begin() + std::clamp<std::ptrdiff_t>(result.offset, 0, std::ssize(text));

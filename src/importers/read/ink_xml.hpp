@@ -8,7 +8,7 @@
 
 namespace calligraphy {
 
-/// @throws FormatError naming the line if the text is no XML
+/// @throws FormatError naming the line if the text is no XML, or if it is larger than 16 MiB
 void load_ink_xml(pugi::xml_document& document, std::string_view text, std::string_view name);
 
 /// The name of an element without its prefix.
