@@ -14,6 +14,7 @@
 #include <calligraphy/importers/stroke_fit.hpp>
 #include <calligraphy/importers/stroke_warnings.hpp>
 #include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_text.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
 #include "base/archive_format.hpp"
@@ -244,7 +245,11 @@ bool is_own_format(const std::filesystem::path& source) {
 
 ImportResult import_characters(const std::filesystem::path& source, const ImportOptions& options) {
   check(options);
-  return is_own_format(source) ? import_own_format(source, options) : import_drawings(source, options);
+  ImportOptions asked = options;
+  for (const char32_t code : options.only) {
+    if (unified(code) != code) asked.only += unified(code);
+  }
+  return is_own_format(source) ? import_own_format(source, asked) : import_drawings(source, asked);
 }
 
 }  // namespace calligraphy

@@ -372,6 +372,47 @@ TEST_CASE("animCJK is in the frame of hanzi-writer-data, and the parts of its st
   CHECK(has(skipped[1].reason, "stroke 1: has no median"));
 }
 
+TEST_CASE("a stroke order that is known to be wrong is put right where it was drawn, and no other", "[practice]") {
+  // Of 冉, whose third stroke begins at 392,447: the shu is due before the heng (data/order_corrections.tsv).
+  const auto drawn = [](const std::string& third) {
+    return R"({"medians":[[[200,700],[200,0]],[[200,700],[800,700]],[[)" + third +
+           R"(],[900,447]],[[512,800],[512,100]],[[100,300],[900,300]]]})";
+  };
+  const auto imported = [](const std::string& json, const ImportOptions& options = {}) {
+    const TemporaryDirectory directory;
+    directory.write("冉.json", json);
+    return import_characters(directory.path(), options);
+  };
+  const std::vector<int> wrong = {2, 1, 1, 2, 1}, right = {2, 1, 2, 1, 1};
+  const ImportResult corrected = imported(drawn("392,447"));
+  CHECK(corrected.list.characters.at(0).sequence.stroke_ids == right);
+  REQUIRE(corrected.report.corrected.size() == 1);
+  CHECK(corrected.report.corrected[0].code == U'冉');
+  CHECK(corrected.report.corrected[0].reason == "the shu before the heng");
+  for (const char* const elsewhere : {"392,459", "380,447"}) {
+    const ImportResult other = imported(drawn(elsewhere));
+    CHECK(other.list.characters.at(0).sequence.stroke_ids == wrong);
+    CHECK(other.report.corrected.empty());
+  }
+  ImportOptions options;
+  options.corrections = false;
+  CHECK(imported(drawn("392,447"), options).list.characters.at(0).sequence.stroke_ids == wrong);
+}
+
+TEST_CASE("a compatibility ideograph or a radical asks for the ideograph that it means", "[practice]") {
+  const TemporaryDirectory directory;
+  directory.write("data/一.json", hanzi_writer_heng);
+  directory.write("data/十.json", hanzi_writer_cross);
+  directory.write("own.txt", text_of(import_characters(directory.path() / "data").list));
+  ImportOptions options;
+  options.only = U"\u2F00";  // Kangxi radical one
+  for (const char* const source : {"data", "own.txt"}) {
+    const CharacterList list = import_characters(directory.path() / source, options).list;
+    REQUIRE(list.characters.size() == 1);
+    CHECK(list.characters[0].code == U'一');
+  }
+}
+
 TEST_CASE("import options outside their domain are rejected by name", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("一.json", hanzi_writer_heng);

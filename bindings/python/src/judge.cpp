@@ -1,8 +1,9 @@
-// What was written: pen traces, matching, recognition and the motion of a pen.
+// What was written: pen traces, also of other formats, matching, recognition and the motion of a pen.
 #include <map>
 #include <optional>
 #include <variant>
 
+#include <calligraphy/importers/ink_import.hpp>
 #include <calligraphy/judge/dtw_distance.hpp>
 #include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/judge/stroke_matching.hpp>
@@ -73,14 +74,37 @@ std::vector<PenStroke> pen_strokes(const GivenPaths& given) {
 using Lists = std::vector<ArrayLike>;
 
 PenTrace trace_of(const std::string& text, const Lists& strokes, std::string set, double em, const Lists& stylus,
-                  const Lists& buttons, const Lists& air, const Lists& air_stylus, const Lists& air_buttons) {
+                  const Lists& buttons, const Lists& air, const Lists& air_stylus, const Lists& air_buttons,
+                  const std::string& selector) {
   if (!air.empty() && air.size() != strokes.size() + 1) {
     throw ValueError(formatted("air: expected one array more than strokes, {}, or none, got {}", strokes.size() + 1,
                                air.size()));
   }
-  const TextCharacter character = one_character(text, "character");
+  const TextCharacter character = one_character(text + selector, "character");
   return {character.written, std::move(set), em, pen_strokes({"strokes", "stylus", "buttons", strokes, stylus, buttons}),
           pen_strokes({"air", "air_stylus", "air_buttons", air, air_stylus, air_buttons}), character.selector};
+}
+
+/// A file, compressed by gzip or not, or its content.
+using InkSource = std::variant<py::bytes, std::filesystem::path>;
+
+InkImport ink_of(const InkSource& source, const std::string& text, const std::optional<YAxis>& y_axis,
+                 const std::string& set, const std::string& name) {
+  const InkOptions options{text_characters(text), y_axis, set};
+  if (const auto* const bytes = std::get_if<py::bytes>(&source)) {
+    const std::string_view content = *bytes;
+    const py::gil_scoped_release release;
+    return import_ink(content, name.empty() ? "bytes" : name, options);
+  }
+  const auto& path = std::get<std::filesystem::path>(source);
+  const py::gil_scoped_release release;
+  const std::string content = content_of(path, CutOff::refused);
+  return import_ink(content, name.empty() ? path.string() : name, options);
+}
+
+PenTrace turned_over(PenTrace trace) {
+  turn_over(trace);
+  return trace;
 }
 
 std::vector<PenPath> paths_of(const std::vector<ArrayLike>& paths) {
@@ -159,6 +183,7 @@ py::object represented(const py::object& self) {
   if (!trace.air.empty()) names.append("air");
   if (any(trace.air, has_stylus)) names.append("air_stylus");
   if (any(trace.air, has_buttons)) names.append("air_buttons");
+  if (trace.selector != 0) names.append("selector");
   return py::module_::import("calligraphy._struct").attr("represented")(self, names);
 }
 
@@ -191,7 +216,7 @@ void add_judge(py::module_& module) {
   py::class_<PenTrace>(module, "PenTrace")
       .def(py::init(&trace_of), "character"_a, "strokes"_a, "set"_a = "unnamed", "em"_a = 1000.0, py::kw_only(),
            "stylus"_a = Lists(), "buttons"_a = Lists(), "air"_a = Lists(), "air_stylus"_a = Lists(),
-           "air_buttons"_a = Lists())
+           "air_buttons"_a = Lists(), "selector"_a = "")
       .def_readonly("character", &PenTrace::character)
       .def_property_readonly(
           "selector",
@@ -224,6 +249,14 @@ void add_judge(py::module_& module) {
              "path"_a, "+ The file may be compressed by gzip.");
   module.def("write_pen_traces", to_file<Gzip::by_name>(&write_pen_traces), "path"_a, "traces"_a, "notice"_a = "",
              "+ Atomically, compressed if the name ends in .gz. Raises FileError.");
+
+  add_types<YAxis, InkImport>(module);
+  module.def("import_ink", &ink_of, "source"_a, "text"_a = "", "y_axis"_a = py::none(), "set"_a = "", "name"_a = "",
+             "+ `source` is a path, of a file that may be compressed by gzip, or the content of a file. `name` is by "
+             "default the path. `text`, `y_axis` and `set` are the fields of InkOptions (docs/pen-traces.md).");
+  module.def("recognise_y_axis",
+             released(+[](const std::vector<PenTrace>& traces) { return recognise_y_axis(traces); }), "traces"_a);
+  module.def("turn_over", &turned_over, "trace"_a, "+ Returns the new trace: traces are immutable.");
 
   py::class_<CharacterIndex>(module, "CharacterIndex")
       .def(py::init(released(+[](const CharacterSet& set) { return CharacterIndex(set); })), "characters"_a)

@@ -54,17 +54,20 @@ auto from_file(Value (*read)(const Path&)) {
     return read(path.string());
   };
 }
+/// The content of a file, uncompressed if it is compressed by gzip. Requires that the GIL is released.
+inline std::string content_of(const std::filesystem::path& path, CutOff cut_off) {
+  std::string content = read_file(path, max_text_bytes);
+  if (!is_gzip(path)) return content;
+  const pybind11::gil_scoped_acquire gil;
+  return inflated(content, path.string(), cut_off);
+}
 /// Reads a file, compressed by gzip or not, without the GIL.
 template <class Value, class Path>
 auto from_file(Value (*read)(const Path&), Value (*parse)(std::istream&, std::string_view), CutOff cut_off) {
   return [=](const std::filesystem::path& path) {
     const pybind11::gil_scoped_release release;
     if (!is_gzip(path)) return read(path.string());
-    const std::string content = read_file(path, max_text_bytes);
-    std::istringstream text([&] {
-      const pybind11::gil_scoped_acquire gil;
-      return inflated(content, path.string(), cut_off);
-    }());
+    std::istringstream text(content_of(path, cut_off));
     return parse(text, path.string());
   };
 }

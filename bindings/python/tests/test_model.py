@@ -95,6 +95,14 @@ def test_characters_are_found_as_people_paste_them_and_a_warning_says_how(charac
         characters.find("永一")
 
 
+def test_typical_strokes_are_characters_by_number_and_by_cjk_stroke():
+    strokes = cal.typical_stroke_characters()
+    for stroke in cal.typical_strokes():
+        assert strokes[cal.typical_stroke_code(stroke.id)].stroke_ids.tolist() == [stroke.id]
+    assert cal.typical_stroke_code(6) == "⑥" and strokes["㇏"].stroke_ids.tolist() == [6]
+    assert strokes.find("㇒", "5").stroke_ids.tolist() == [5], "the short pie is an order of pie"
+
+
 def test_errors_derive_from_one_base_and_from_built_in_exceptions(tmp_path):
     with pytest.raises(cal.FileError) as missing:
         cal.CharacterSet.open(str(tmp_path / "nowhere.set"))

@@ -280,6 +280,7 @@ RESULTS = {
     "PenTrace": lambda: cal.PenTrace(
         "一", [[[0, 0, 0], [1, 0, 0.5]], np.zeros((0, 3))], set="made", em=500.0,
         stylus=[np.full((2, 6), 0.5), np.zeros((0, 6))], buttons=[[1, -1], []], air=[[], [[0, 0, 0.6]], []],
+        selector="\ufe00",
     ),
     "CharacterList": lambda: cal.CharacterList(
         [cal.built_in_characters()["永"]], cal.Provenance(source="mine", licence="MIT")
@@ -291,7 +292,7 @@ PARTS = {
     "NearestPoints": ("parameter", "point", "distance", "tangent", "status", "certified"),
     "Recording": ("rate", "samples", "inputs", "setup"),
     "StrokeInput": ("id", "control_points", "attraction_factors", "elements", "ink"),
-    "PenTrace": ("character", "set", "em", "strokes", "stylus", "buttons", "air"),
+    "PenTrace": ("character", "set", "em", "strokes", "stylus", "buttons", "air", "selector"),
     "CharacterList": ("characters", "provenance"),
     "TypicalStroke": ("id", "name"),
     "FeedbackMode": ("name", "value"),

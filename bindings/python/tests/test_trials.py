@@ -47,5 +47,18 @@ def test_the_import_report_accounts_for_the_source(tmp_path):
     only, report = cal.import_characters(tmp_path, only="一")
     assert [character.code for character in only] == ["一"] and report["characters"] == 1
     (tmp_path / "二.json").write_text("{", encoding="utf-8")
+    _, report = cal.import_characters(tmp_path)
+    assert [path for path, _ in report["unusable"]] == ["二.json"] and report["characters"] == 2
     with pytest.raises(cal.FormatError, match="二.json"):
-        cal.import_characters(tmp_path)
+        cal.import_characters(tmp_path, strict=True)
+
+
+def test_an_import_says_which_stroke_orders_it_corrected(tmp_path):
+    # Of 冉, whose third stroke begins at 392,447 (data/order_corrections.tsv).
+    medians = "[[[200,700],[200,0]],[[200,700],[800,700]],[[392,447],[900,447]],[[512,800],[512,100]],[[100,300],[900,300]]]"
+    (tmp_path / "冉.json").write_text(f'{{"medians":{medians}}}', encoding="utf-8")
+    characters, report = cal.import_characters(tmp_path)
+    assert report["corrected"] == [("冉", "the shu before the heng")]
+    assert characters["冉"].stroke_ids.tolist() == [2, 1, 2, 1, 1]
+    characters, report = cal.import_characters(tmp_path, corrections=False)
+    assert report["corrected"] == [] and characters["冉"].stroke_ids.tolist() == [2, 1, 1, 2, 1]

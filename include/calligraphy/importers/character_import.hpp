@@ -37,7 +37,7 @@ struct ImportOptions {
   bool ideographs_only = true;      ///< omits KanjiVG's kana, Latin letters, radicals and signs
   bool corrections = true;          ///< corrects stroke orders of Make Me a Hanzi that are known to be wrong
   InkDetail ink = InkDetail::full;  ///< from hanzi-writer-data; `none` also drops that of a set or text file
-  std::u32string only;              ///< imports only these characters; empty: all
+  std::u32string only;              ///< imports only these characters, and what they mean by unified(); empty: all
   std::string date;     ///< date of modification for the notice that the Arphic licence requires; empty: omitted
   int threads = 0;      ///< 0: one per core; the result does not depend on it
   bool strict = false;  ///< one unusable file fails the import; otherwise it is skipped: ImportReport::skipped
