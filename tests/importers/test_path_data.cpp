@@ -102,7 +102,7 @@ TEST_CASE("S mirrors the handle of C and S alone, and T that of Q and T", "[prac
   check_same("M0 0L20 0T40 0", "M0 0L20 0Q20 0 40 0");
   check_same("M0 0C0 10 20 10 20 0T40 0", "M0 0C0 10 20 10 20 0Q20 0 40 0");
   check_same("M0 0Q10 10 20 0S40 10 40 0", "M0 0Q10 10 20 0C20 0 40 10 40 0");
-  check_same("M0 0L20 0S40 10 40 0", "M0 0L20 0C20 0 40 10 40 0");
+  check_same("M0 0C0 10 20 10 20 0L40 0S60 10 60 0", "M0 0C0 10 20 10 20 0L40 0C40 0 60 10 60 0");
 }
 
 TEST_CASE("an arc is on its ellipse, the large or the small part, in the sense of its flag", "[practice]") {

@@ -17,6 +17,7 @@
 #include <Eigen/Geometry>
 
 #include <calligraphy/devices/servo.hpp>
+#include <calligraphy/judge/pen_trace.hpp>
 #include <calligraphy/model/character_text.hpp>
 #include <calligraphy/model/placed_character.hpp>
 #include <calligraphy/render/guidance_law.hpp>
@@ -220,7 +221,11 @@ requires(is_vector<Type> || is_optional<Type>) struct ElementOf<Type> : std::typ
 template <class Struct>
 inline constexpr bool is_bound_by_hand = false;
 template <>
+inline constexpr bool is_bound_by_hand<Character> = true;
+template <>
 inline constexpr bool is_bound_by_hand<PlacedCharacter> = true;
+template <>
+inline constexpr bool is_bound_by_hand<PenTrace> = true;
 
 template <class Struct>
 py::class_<Struct> add_struct(py::module_& module);

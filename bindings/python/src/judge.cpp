@@ -81,7 +81,8 @@ PenTrace trace_of(const std::string& text, const Lists& strokes, std::string set
                                air.size()));
   }
   const TextCharacter character = one_character(text + selector, "character");
-  return {character.written, std::move(set), em, pen_strokes({"strokes", "stylus", "buttons", strokes, stylus, buttons}),
+  return {character.written, std::move(set), em,
+          pen_strokes({"strokes", "stylus", "buttons", strokes, stylus, buttons}),
           pen_strokes({"air", "air_stylus", "air_buttons", air, air_stylus, air_buttons}), character.selector};
 }
 

@@ -70,6 +70,8 @@ LISTS = {
     (cal.PracticePage, "characters"): placed,
     (cal.CharacterScore, "pen_downs"): lambda: records(cal.PenDownScore),
     (cal.CharacterScore, "strokes"): lambda: records(cal.StrokeScore),
+    (cal.InkImport, "traces"): lambda: NUMBERS.map(lambda x: cal.PenTrace("一", [[[x, 0, 0]]])),
+    (cal.InkImport, "notes"): lambda: st.text(max_size=5),
     (cal.MatchResult, "drawn"): lambda: records(cal.DrawnStroke),
     (cal.MatchResult, "remarks"): lambda: records(cal.StrokeRemark),
     (cal.StabilityMapOptions, "grips"): lambda: records(cal.GripImpedance),
