@@ -119,6 +119,14 @@ TEST_CASE("InkML's * repeats the number before it, be it a value or a difference
   CHECK((stroke[0].point - stroke[4].point).y() == Approx(0.8 * 4.0 / 46.0));
 }
 
+TEST_CASE("InkML's first trace may lack the timeOffset that the others have", "[importers]") {
+  const InkImport import = read(
+      "<ink><traceFormat><channel name='X'/><channel name='Y'/><channel name='T' units='dev'/></traceFormat>"
+      "<trace>0 0 0,9 9 8</trace><trace timeOffset='100'>0 9 0,9 0 16</trace></ink>");
+  CHECK(import.traces.at(0).strokes.at(0).at(1).time == Approx(0.008));
+  CHECK(import.traces[0].strokes.at(1).at(1).time == Approx(0.116));
+}
+
 TEST_CASE("InkML's characters may be named apart from their traces", "[importers]") {
   const std::string traces = "<ink><annotation type='truth'>$x^2$</annotation><trace id='0'>0 0,9 0</trace>"
                              "<trace id='1'>4 0,4 9</trace><trace id='2'>0 0,8 0</trace><trace id='3'>1 1</trace>";

@@ -212,6 +212,7 @@ class InkmlReader {
   void note_id(pugi::xml_node node) {
     const std::string_view id = attribute_of(node, "id");
     if (!id.empty()) by_id_.emplace(id, node);
+    has_offsets_ = has_offsets_ || (local_name(node) == "trace" && !attribute_of(node, "timeOffset").empty());
   }
 
   /// The element that a reference such as "#pen" names; none if it is empty or the default of the specification.
@@ -343,6 +344,7 @@ class InkmlReader {
     }
     if (const std::string_view id = attribute_of(node, "id"); !id.empty()) runs_[std::string(id)] = to;
     std::optional<double> offset;
+    if (has_offsets_) offset = 0.0;  // Office leaves out that of the first trace
     if (const std::string_view text = attribute_of(node, "timeOffset"); !text.empty()) {
       offset = finite_number(text);
       if (!offset) throw FormatError(place + "timeOffset is " + in_quotes(text) + ": expected a number");
@@ -564,6 +566,7 @@ class InkmlReader {
   std::vector<View> views_;
   pugi::xml_node default_format_;
   std::size_t traces_ = 0;
+  bool has_offsets_ = false;  ///< in some trace
   bool has_timed_ = false, has_untimed_ = false;
   bool angle_is_declared_ = false;
 };
