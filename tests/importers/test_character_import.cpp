@@ -269,6 +269,9 @@ TEST_CASE("a character is named in many ways, and a name that the file contradic
       CHECK(import.list.characters[0].code == U'一');
     }
   }
+  const TemporaryDirectory hexadecimal;
+  hexadecimal.write("05341.json", hanzi_writer_cross);  // by the zero, for all its digits are decimal
+  CHECK(import_characters(hexadecimal.path()).list.characters.at(0).code == U'十');
   const TemporaryDirectory directory;
   directory.write("a/data.json", named);
   directory.write("b/二.json", named);
