@@ -196,7 +196,7 @@ std::vector<Character> characters_of(const CharacterSet& set, const std::u32stri
 void add_no_corrections_flag(CLI::App& command, bool& as_drawn) {
   command
       .add_flag("--no-corrections", as_drawn,
-                "hanzi-writer-data: leave stroke orders that are known to be wrong; docs/import.md")
+                "Make Me a Hanzi in any form: leave stroke orders that are known to be wrong; docs/import.md")
       ->disable_flag_override();
 }
 

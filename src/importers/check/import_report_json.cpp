@@ -155,7 +155,8 @@ OrderedJson report_json(const ImportResult& import, std::size_t bytes) {
     if (!report.ink.strokes.empty()) all["ink"] = ink_json(import);
   }
   all["ids_used"] = ids_json(report);
-  if (report.kind == SourceKind::hanzi_writer_data) all["corrected"] = corrected_json(report);
+  const bool is_brush = report.kind != SourceKind::kanjivg && report.kind != SourceKind::calligraphy;
+  if (is_brush) all["corrected"] = corrected_json(report);
   all["skipped"] = skipped_json(report);
   all["notes"] = report.notes;
   return all;
