@@ -1,14 +1,13 @@
 """Damages files and lets a program read them: how it ends, how long it takes and how much memory, at most.
 
-usage: measure_mutants.py PROGRAM COUNT [--seed N] [--in-zip] [--most-memory MIB] [--most-time S]
-                          -- COMMAND {} ... SEED_FILE ...
+usage: measure_mutants.py PROGRAM COUNT "COMMAND ... {} ..." SEED_FILE... [--seed N] [--in-zip] [--most-memory MIB]
+                          [--most-time S]
 
-{} in the command stands for the damaged file, which has the name of the seed file; every argument after the last {}
-that names a file is a seed, and COUNT mutants are made of each. With --in-zip the program gets an undamaged zip of the
-damaged file, whose checksum so does not protect it. Kept are those that do not end with 0 or 1, or take
-too much.
+{} in the command stands for the damaged file, which has the name of the seed file; COUNT mutants are made of each seed.
+With --in-zip the program gets an undamaged zip of the damaged file, whose checksum so does not protect it. Kept are
+those that do not end with 0 or 1, or take too much.
 
-example: measure_mutants.py calligraphy 20000 -- traces --text 永 -o /dev/null {} pen.svc pen.inkml
+example: measure_mutants.py calligraphy 20000 "traces --text 永 -o /dev/null {}" pen.svc pen.inkml
 """
 import argparse
 import os
@@ -79,24 +78,21 @@ def measure(command, seeds, count, draw, most_memory=64.0, most_time=2.0, in_zip
 
 
 def main():
-    own, rest = sys.argv[1:], []
-    if "--" in own:
-        own, rest = own[:own.index("--")], own[own.index("--") + 1:]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=lambda text: str(Path(text).resolve()))
     parser.add_argument("count", type=int)
+    parser.add_argument("command", type=str.split)
+    parser.add_argument("seed_files", metavar="seed_file", type=Path, nargs="+")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--in-zip", action="store_true")
     parser.add_argument("--most-memory", type=float, default=64.0)
     parser.add_argument("--most-time", type=float, default=2.0)
-    options = parser.parse_args(own)
-    if "{}" not in rest:
+    options = parser.parse_args()
+    if "{}" not in options.command:
         parser.error("the command has no {}")
-    last = len(rest) - rest[::-1].index("{}")
-    seeds = [Path(word) for word in rest[last:] if Path(word).is_file()]
-    command = [options.program, *rest[:last], *(word for word in rest[last:] if not Path(word).is_file())]
-    return 1 if measure(command, [(seed.name, seed.read_bytes()) for seed in seeds], options.count,
-                        random.Random(options.seed), options.most_memory, options.most_time, options.in_zip) else 0
+    seeds = [(file.name, file.read_bytes()) for file in options.seed_files]
+    return 1 if measure([options.program, *options.command], seeds, options.count, random.Random(options.seed),
+                        options.most_memory, options.most_time, options.in_zip) else 0
 
 
 if __name__ == "__main__":
