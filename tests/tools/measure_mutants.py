@@ -29,8 +29,8 @@ def damaged(whole, draw):
     for _ in range(draw.choice((1, 1, 2, 5, 20))):
         at = draw.randrange(len(data))
         kind = draw.randrange(4)
-        if kind == 0:
-            data[at] = draw.randrange(256)
+        if kind == 0:  # half of them still text, which gets farther
+            data[at] = draw.choice((draw.randrange(256), draw.choice(b"0123456789.-e, ")))
         elif kind == 1:
             del data[at:at + draw.randrange(1, 40)]
         elif kind == 2:
