@@ -12,6 +12,7 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/model/typical_stroke.hpp>
 
 #include "commands.hpp"
 #include "counted.hpp"
@@ -23,7 +24,7 @@ namespace {
 CharacterSet open_one(const std::string& path, const std::u32string& text) {
   if (path.empty()) throw UsageError("--characters: the name is empty");
   std::error_code failure;
-  if (!text.empty() && std::filesystem::is_directory(path, failure)) {
+  if (!text.empty() && (std::filesystem::is_directory(path, failure) || !is_own_format(path))) {
     ImportOptions asked;
     asked.only = text;
     ImportResult import = import_characters(path, asked);
@@ -73,6 +74,14 @@ std::string advice(const std::vector<std::string>& paths) {
 
 std::string place_of(const std::vector<std::string>& paths) {
   return paths.empty() ? "the built-in set (see --characters)" : fmt::format("{}", fmt::join(paths, ", "));
+}
+
+/// Says which typical stroke a number stands for.
+void tell_of_stroke(char32_t code) {
+  for (const TypicalStroke& stroke : typical_strokes()) {
+    if (typical_stroke_code(stroke.id) != code) continue;
+    spdlog::info("{} is the typical stroke {} {} {}", encode_utf8(code), stroke.id, stroke.name, stroke.pinyin);
+  }
 }
 
 }  // namespace
@@ -133,6 +142,7 @@ std::u32string present(const std::vector<TextCharacter>& text, const std::functi
     const char32_t code = is_there(character.written) ? character.written : character.meant;
     if (is_there(code)) {
       notes.tell(character, code);
+      if (found.find(code) == found.npos) tell_of_stroke(code);
       found += code;
     } else {
       (is_punctuation(code) ? skipped : missing) += character.written;
@@ -203,8 +213,8 @@ void add_no_corrections_flag(CLI::App& command, bool& as_drawn) {
 CLI::Option* add_characters_option(CLI::App& command, std::vector<std::string>& paths) {
   return command
       .add_option("--characters", paths,
-                  "Set file, file in the text format or hanzi-writer-data directory (default: the built-in set); "
-                  "repeat to layer several, the first on top")
+                  "Set file, file in the text format, or any source of `import` (default: the built-in set); repeat to "
+                  "layer several, the first on top")
       ->allow_extra_args(false)
       ->type_name("PATH");
 }

@@ -1,5 +1,4 @@
-// Where characters come from: set files, files in the text format, the unpacked package hanzi-writer-data, or the
-// built-in set.
+// Where characters come from: set files, files in the text format, the sources of `import`, or the built-in set.
 #pragma once
 
 #include <functional>
@@ -18,7 +17,7 @@ class Option;
 namespace calligraphy::tools {
 
 /// Opens the files and directories in `paths`, layered with the first on top; without any, the built-in set. From a
-/// directory, only the characters of `text` are read. The typical strokes are below if `text` has any.
+/// source of `import`, only the characters of `text` are read. The typical strokes are below if `text` has any.
 /// @throws Error naming the file
 CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32string& text);
 

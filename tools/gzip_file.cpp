@@ -9,6 +9,7 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
@@ -167,5 +168,18 @@ GzipReader::GzipReader(const std::filesystem::path& path)
 GzipReader::~GzipReader() = default;
 
 bool GzipReader::was_cut_off() const noexcept { return buffer_->was_cut_off(); }
+
+std::string unpacked(const std::string& path) {
+  constexpr std::size_t most = 64 << 20;
+  GzipReader in(path);
+  std::string content;
+  std::vector<char> block(1 << 16);
+  while (in.read(block.data(), static_cast<std::streamsize>(block.size())), in.gcount() > 0) {
+    content.append(block.data(), static_cast<std::size_t>(in.gcount()));
+    if (content.size() > most) throw FormatError(path + ": larger than 64 MiB");
+  }
+  if (in.was_cut_off()) throw FormatError(path + ": the file is truncated");
+  return content;
+}
 
 }  // namespace calligraphy::tools

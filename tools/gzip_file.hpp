@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string>
 #include <streambuf>
 
 namespace calligraphy::tools {
@@ -39,5 +40,9 @@ class GzipReader : public std::istream {
   class Buffer;
   std::unique_ptr<Buffer> buffer_;
 };
+
+/// The content of a file, compressed or plain. @throws FileError if it cannot be opened, FormatError if it was cut off or
+/// has more than 64 MiB
+std::string unpacked(const std::string& path);
 
 }  // namespace calligraphy::tools

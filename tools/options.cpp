@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -25,16 +26,26 @@ bool parse(const std::string& word, Number& value) {
   return failure == std::errc() && rest == end;
 }
 
-/// Typical strokes by their numbers, as in "5" or "1, 5, 38"; empty if the text is anything else.
+/// Typical strokes by their numbers, as in "5" or "1, 5, 38", also in full width; empty if the text is anything else.
+/// @throws UsageError if there is no stroke of a number
 std::vector<TextCharacter> numbered_strokes(const std::string& text) {
   std::vector<TextCharacter> strokes;
-  constexpr std::string_view separators = " ,\t\n";
-  for (std::size_t at = 0; (at = text.find_first_not_of(separators, at)) != std::string::npos;) {
-    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
+  if (!is_utf8(text)) return strokes;
+  std::string words;
+  for (char32_t code : decode_utf8(text)) {
+    constexpr std::u32string_view separators = U" ,\t\n\u3000\uFF0C\u3001";
+    if (code >= U'\uFF10' && code <= U'\uFF19') code = code - U'\uFF10' + U'0';
+    const bool is_digit = code >= U'0' && code <= U'9';
+    if (!is_digit && separators.find(code) == separators.npos) return strokes;
+    words += is_digit ? static_cast<char>(code) : ' ';
+  }
+  std::istringstream in(words);
+  for (std::string word; in >> word;) {
     int id = 0;
-    if (!parse(text.substr(at, end - at), id) || id < 1 || id > typical_stroke_count) return {};
+    if (!parse(word, id) || id < 1 || id > typical_stroke_count) {
+      throw UsageError(fmt::format("TEXT: {}: the typical strokes have the numbers 1 to {}", word, typical_stroke_count));
+    }
     strokes.push_back({typical_stroke_code(id), typical_stroke_code(id), 0});
-    at = end;
   }
   return strokes;
 }

@@ -14,6 +14,7 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/importers/ink_import.hpp>
 #include <calligraphy/judge/character_index.hpp>
 #include <calligraphy/judge/pen_trace.hpp>
 #include <calligraphy/judge/y_axis.hpp>
@@ -79,23 +80,46 @@ void turn_if_up(std::vector<PenTrace>& traces, const ReplayArguments& options, s
   std::for_each(traces.begin(), traces.end(), turn_over);
 }
 
+/// What makes pen traces of a file, if that is a pen recording in another format; otherwise empty.
+std::string advice_on(const std::string& path) {
+  InkOptions any;
+  any.text.assign(1000, {U'一', U'一', 0});  // whatever was written
+  try {
+    const InkFormat format = import_ink(unpacked(path), path, any).format;
+    if (format == InkFormat::pen_traces) return {};
+    return fmt::format("is {}, not pen traces: `calligraphy traces {} -o pens.txt` makes them of it",
+                       calligraphy::to_string(format), path);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+std::vector<PenTrace> traces_in(const std::string& path) {
+  try {
+    GzipReader in(path);
+    std::vector<PenTrace> traces = read_pen_traces(in, path);
+    if (in.was_cut_off()) throw FormatError(path + ": the file is truncated");
+    return traces;
+  } catch (const FormatError& error) {
+    const std::string advice = advice_on(path);
+    throw FormatError(printable(advice.empty() ? error.what() : path + ": " + advice));
+  }
+}
+
 std::vector<Chosen> chosen_traces(const ReplayArguments& options, std::vector<std::string>& warnings) {
   std::vector<Chosen> chosen;
   int position = 0;
-  GzipReader in(options.traces);
-  std::vector<PenTrace> traces = read_pen_traces(in, options.traces);
-  if (in.was_cut_off()) throw FormatError(options.traces + ": the file is truncated");
+  std::vector<PenTrace> traces = traces_in(options.traces);
   turn_if_up(traces, options, warnings);
   for (PenTrace& trace : traces) chosen.push_back({++position, std::move(trace)});
   if (options.only) {
     const auto is_there = [&chosen](char32_t code) {
       return std::any_of(chosen.begin(), chosen.end(),
-                         [code](const Chosen& each) { return codes_of({character_in(each.trace)}).find(code) != std::u32string::npos; });
+                         [code](const Chosen& each) { return unified(each.trace.character) == unified(code); });
     };
-    const std::u32string only = present(characters_of(*options.only), is_there, options.traces);
-    std::erase_if(chosen, [&only](const Chosen& each) {
-      return codes_of({character_in(each.trace)}).find_first_of(only) == only.npos;
-    });
+    std::u32string only = present(characters_of(*options.only), is_there, options.traces);
+    std::transform(only.begin(), only.end(), only.begin(), unified);
+    std::erase_if(chosen, [&only](const Chosen& each) { return only.find(unified(each.trace.character)) == only.npos; });
   }
   if (chosen.empty()) throw Error(options.traces + " contains no traces");
   return chosen;

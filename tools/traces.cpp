@@ -64,19 +64,6 @@ ReadFigures figures_of(const std::string& file, InkImport import) {
   return figures;
 }
 
-std::string content_of(const std::string& path) {
-  constexpr std::size_t most = 64 << 20;
-  GzipReader in(path);
-  std::string content;
-  std::vector<char> block(1 << 16);
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())), in.gcount() > 0) {
-    content.append(block.data(), static_cast<std::size_t>(in.gcount()));
-    if (content.size() > most) throw FormatError(path + ": larger than 64 MiB");
-  }
-  if (in.was_cut_off()) throw FormatError(path + ": the file is truncated");
-  return content;
-}
-
 std::string traces_table(const std::vector<ReadFigures>& files) {
   std::string text = fmt::format("{:<14}{:>11}{:>9}{:>9}{:>10}{:>10}  {}\n", "format", "characters", "strokes",
                                  "samples", "time [s]", "rate [Hz]", "file");
@@ -129,7 +116,7 @@ void run(const TracesArguments& options) {
   std::vector<PenTrace> traces;
   for (const std::string& in : options.in) {
     interrupt.check();
-    InkImport import = import_ink(content_of(in), in, asked);
+    InkImport import = import_ink(unpacked(in), in, asked);
     asked.text.erase(asked.text.begin(), asked.text.begin() + static_cast<std::ptrdiff_t>(import.text_used));
     files.push_back(figures_of(in, std::move(import)));
     for (PenTrace& trace : files.back().import.traces) {
@@ -138,7 +125,7 @@ void run(const TracesArguments& options) {
     }
   }
   if (!asked.text.empty()) {
-    throw UsageError(fmt::format("--text: there are {} more than the files have without a name, from {} on",
+    throw UsageError(fmt::format("--text: the files need {} fewer, and have no {} that is not named",
                                  counted(asked.text.size(), "character"), character_label(asked.text.front().written)));
   }
   const std::string text = pen_traces_text(traces, options.notice);

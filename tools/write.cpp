@@ -343,6 +343,7 @@ void add_write(CLI::App& program) {
                              "force plot.");
   command->footer(
       "calligraphy write 永和 -o out                       # without and with force\n"
+      "calligraphy write ㇏㇇ -o two                       # strokes; also \"6 17\"\n"
       "calligraphy write 永 --repeat 20 -o twenty          # what force changes\n"
       "calligraphy write 福 --characters hanzi.set -o fu   # made by `import`\n"
       "calligraphy write 永 --device phantom --wire-profile mine.profile -o mine\n"

@@ -23,7 +23,7 @@ void check_is_no_archive(std::span<const std::byte> bytes, const std::string& pa
   if (format.empty()) return;
   throw FormatError(path + ": is " + (format == "tar" ? "an archive" : "a compressed archive") + " (" +
                     std::string(format) +
-                    "), not a character file; `calligraphy import` converts collections, as directories or tarballs");
+                    "), not a character file; `calligraphy import` converts collections, as directories or archives");
 }
 
 }  // namespace

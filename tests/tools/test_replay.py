@@ -101,6 +101,15 @@ class Replay(ReplayTest):
         one, two, three = THREE
         self.assertEqual(self.remarks(character("三", [one, two[::-1], three])), [[("direction", 2, 2)]])
 
+    def test_only_asks_for_what_characters_mean(self):
+        traces = [character(code, TEN) for code in ("十", "\u2f17", "三")]
+        for only in ("十", "\u2f17"):
+            self.assertEqual(len(self.replay(*traces, options=("--only", only))["traces"]), 2)
+
+    def test_a_recording_in_another_format_is_named_with_what_reads_it(self):
+        (self.directory / "十.svc").write_text("2\n100 100 0 1\n300 120 100 1\n")
+        self.assert_refused(1, ["replay", "十.svc"], "is SVC", "`calligraphy traces 十.svc -o pens.txt`")
+
     def test_a_typical_stroke_is_judged_alone(self):
         numbers = " ".join(map(str, range(1, 40)))
         strokes = json.loads(self.run_program("info", numbers, "--json").stdout)["text"]

@@ -114,6 +114,7 @@ async function main() {
     before?.close();
     task += 1;  // what the worker still says is of another one
     find("character").textContent = character;
+    find("source").hidden = !isImported || !characters.includes(character);
     document.title = `${character} · Calligraphy`;
     if (asked() !== character) history.replaceState(null, "", `#${character}`);
     return true;
@@ -223,7 +224,6 @@ async function main() {
     button.addEventListener("click", () => begin(character));
     find("characters").append(button);
   }
-  find("source").hidden = !isImported;
   window.addEventListener("hashchange", beginAsked);
   beginAsked();
   changeStrength();
