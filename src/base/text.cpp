@@ -21,15 +21,16 @@ bool is_utf16(std::string_view text) noexcept {
   const std::string_view front = text.substr(0, std::min(text.size(), sample) / 2 * 2);
   std::size_t zeros[2] = {0, 0};
   for (std::size_t i = 0; i < front.size(); ++i) zeros[i % 2] += front[i] == '\0' ? 1 : 0;
-  return (zeros[0] == 0 || zeros[1] == 0) && 4 * (zeros[0] + zeros[1]) > front.size();
+  const auto [fewer, more] = std::minmax(zeros[0], zeros[1]);
+  return 8 * fewer <= more && 4 * (fewer + more) > front.size();  // some of an ideograph such as U+4E00 are elsewhere
 }
 
 std::u32string decode_utf8(std::string_view text) {
   if (is_utf16(text)) throw FormatError("text is UTF-16, not UTF-8: save it as UTF-8");
   const auto invalid = utf8::find_invalid(text.begin(), text.end());
   if (invalid != text.end()) {
-    throw FormatError("text is not UTF-8: byte " + std::to_string(std::distance(text.begin(), invalid)) +
-                      " is invalid");
+    throw FormatError("text is not UTF-8 (byte " + std::to_string(std::distance(text.begin(), invalid)) +
+                      " is invalid): save it as UTF-8");
   }
   std::u32string codes;
   utf8::utf8to32(text.begin(), text.end(), std::back_inserter(codes));
@@ -51,7 +52,9 @@ std::string printable(std::string_view text) {
     const std::string_view rest = text.substr(at);
     const auto valid = static_cast<std::size_t>(
         std::distance(rest.begin(), utf8::find_invalid(rest.begin(), rest.end())));
-    for (const char32_t code : decode_utf8(rest.substr(0, valid))) {
+    std::u32string codes;  // not by decode_utf8(), which refuses what looks like UTF-16
+    utf8::utf8to32(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(valid), std::back_inserter(codes));
+    for (const char32_t code : codes) {
       const bool is_control = code < 0x20 || (code >= 0x7F && code < 0xA0);
       shown += is_control ? "?" : encode_utf8(code);
     }

@@ -72,6 +72,7 @@ class Parser : private LineReader {
 
  private:
   void read_format() {
+    if (is_utf16(line())) fail("the file is UTF-16, not UTF-8: save it as UTF-8");
     const auto found = std::find(first_lines.begin(), first_lines.end(), line());
     if (found == first_lines.end()) {
       fail("expected " + in_quotes(first_lines[1]) + " (or 1, or 3 with ink), found " + in_quotes(line()));

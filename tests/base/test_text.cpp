@@ -32,7 +32,8 @@ TEST_CASE("code points of one to four bytes are decoded", "[model]") {
 
 TEST_CASE("UTF-16 is told by its name, with and without a byte order mark", "[model]") {
   using namespace std::string_literals;
-  for (const std::string& text : {"\xFF\xFE\x38\x6C"s, "\xFE\xFF\x6C\x38"s, "C\0 \0\x38\x6C"s, "\0C\0 \x6C\x38"s}) {
+  for (const std::string& text : {"\xFF\xFE\x38\x6C"s, "\xFE\xFF\x6C\x38"s, "C\0 \0\x38\x6C"s, "\0C\0 \x6C\x38"s,
+                                  "s\0e\0t\0 \0o\0n\0e\0:\0\0\x4E"s}) {
     CHECK(complaint(text) == "text is UTF-16, not UTF-8: save it as UTF-8");
   }
   CHECK_FALSE(is_utf16("永"));
@@ -72,6 +73,7 @@ TEST_CASE("text is UTF-8 only when all of it is", "[base]") {
 
 TEST_CASE("what a terminal would take for a command, or not understand, is shown as a question mark", "[base]") {
   CHECK(printable("").empty());
+  CHECK(printable(std::string("c\0a\0", 4)) == "c?a?");
   CHECK(printable("p\xC3\xA4per \xE6\xB0\xB8") == "p\xC3\xA4per \xE6\xB0\xB8");
   CHECK(printable(std::string("\0\n\x1B[1m\x7F", 7)) == "???[1m?");
   CHECK(printable("a\xC2\x9B") == "a?");  // a control character of two bytes
