@@ -1,5 +1,6 @@
 #include "hanzi_writer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -31,16 +32,24 @@ class Reader {
     if (text.size() > max_file_bytes) fail("", "larger than 1 MB");
     try {
       root_ = Json::parse(text);
-    } catch (const Json::exception& error) {
-      constexpr std::size_t most = 200;  // [byte]; it quotes what it has read
-      fail("", printable("not JSON: " + std::string(error.what()).substr(0, most)));
+    } catch (const Json::parse_error& error) {
+      check_utf8(text);
+      fail("", "not JSON at byte " + std::to_string(error.byte) + (error.byte > text.size() ? ", its end" : ""));
+    } catch (const Json::exception&) {
+      fail("", "not JSON: a number is too large");
     }
   }
 
   std::vector<SourceStroke> strokes() const {
-    if (!root_.is_object()) fail("", "expected an object");
+    constexpr const char* expected =
+        ": expected one character, {\"strokes\": [...], \"medians\": [...]}, a file or, as in graphics.txt, a line";
+    if (!root_.is_object()) fail("", (root_.is_array() ? "is an array" : "is no object") + std::string(expected));
     const auto medians = root_.find("medians");
-    if (medians == root_.end()) fail("medians", "missing");
+    if (medians == root_.end()) {
+      const auto is_object = [](const Json& each) { return each.is_object(); };
+      if (std::any_of(root_.begin(), root_.end(), is_object)) fail("", "is an object of objects" + std::string(expected));
+      fail("medians", "missing");
+    }
     if (!medians->is_array() || medians->empty()) fail("medians", "expected a non-empty array");
     if (medians->size() > max_strokes) fail("medians", "more than " + std::to_string(max_strokes) + " strokes");
     std::vector<SourceStroke> result;
@@ -63,6 +72,14 @@ class Reader {
   }
 
  private:
+  void check_utf8(std::string_view text) const {
+    try {
+      decode_utf8(text);
+    } catch (const FormatError& error) {
+      fail("", error.what());
+    }
+  }
+
   static std::string place_in(const char* array, std::size_t index) {
     return std::string(array) + "[" + std::to_string(index) + "]";
   }
@@ -89,6 +106,8 @@ class Reader {
     for (std::size_t i = 0; i < value.size(); ++i) {
       points.push_back(point(value[i], place + "[" + std::to_string(i) + "]"));
     }
+    const auto is_first = [&points](const Point& each) { return each == points.front(); };
+    if (std::all_of(points.begin(), points.end(), is_first)) fail(place, "has no length");
     return points;
   }
 

@@ -18,9 +18,13 @@ constexpr double svg_tolerance = 5e-5;  // [em]
 
 SourceStroke stroke_of(SvgPath path, const std::string& place) {
   if (path.label.size() > max_label) throw FormatError(place + ": kvg:type is longer than 64 bytes");
-  SourceStroke stroke;
   try {
     decode_utf8(path.label);
+  } catch (const FormatError& error) {
+    throw FormatError(place + ": kvg:type: " + error.what());
+  }
+  SourceStroke stroke;
+  try {
     stroke.path = flattened_path(path.data, svg_tolerance * svg_units_per_em);
   } catch (const FormatError& error) {
     throw FormatError(place + ": path data " + error.what());
