@@ -100,8 +100,9 @@ CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32s
 ImportResult import_source(const std::string& source, const ImportOptions& asked) {
   try {
     return import_characters(source, asked);
-  } catch (const ValueError& error) {  // begins with the name of the field, which is that of the option but for one
+  } catch (const ValueError& error) {  // begins with the name of the field, which is that of the option but for two
     const std::string what = error.what(), opposite = "ideographs_only";
+    if (what.starts_with("corrections")) throw UsageError("--no-" + what);
     throw UsageError("--" + (what.starts_with(opposite) ? "all" + what.substr(opposite.size()) : what));
   }
 }

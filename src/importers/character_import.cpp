@@ -194,9 +194,7 @@ ImportResult import_drawings(const std::filesystem::path& path, const ImportOpti
   std::vector<ImportedCharacter> characters = usable_of(results, source);
   ImportResult result{{}, report_of(source.kind, characters)};
   result.list.provenance = provenance(source, options, characters.front().notice, result.report.notes);
-  if (const std::size_t corrected = result.report.corrected.size(); corrected > 0) {
-    result.list.provenance.attribution += "; stroke orders of " + std::to_string(corrected) + " corrected";
-  }
+  if (!result.report.corrected.empty()) result.list.provenance.attribution += "; some stroke orders corrected";
   result.report.skipped = std::move(source.skipped);
   for (ImportedCharacter& character : characters) result.list.characters.push_back(std::move(character.character));
   return result;
@@ -240,7 +238,7 @@ bool is_own_format(const std::filesystem::path& source) {
   start.resize(static_cast<std::size_t>(in.gcount()));
   if (!archive_format(start).empty()) return false;
   const std::size_t first = start.find_first_not_of(" \t\r\n", start.starts_with("\xEF\xBB\xBF") ? 3 : 0);
-  return first == start.npos || (start[first] != '{' && start[first] != '<');
+  return first == start.npos || (start[first] != '{' && start[first] != '[' && start[first] != '<');
 }
 
 ImportResult import_characters(const std::filesystem::path& source, const ImportOptions& options) {

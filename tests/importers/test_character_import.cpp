@@ -28,6 +28,7 @@ const std::string shu_with_hook = "M50,10c0,30,0,60,0,85c-4,-3,-8,-6,-12,-9";
 const std::string steep_heng = "M20,70c20,-10,40,-20,60,-30";  // rises by 27 degrees, as a ti does
 
 const std::string hanzi_writer_heng = R"({"medians":[[[100,400],[900,400]]]})";
+const std::string named_heng = R"({"character":"一","medians":[[[100,400],[900,400]]]})";
 const std::string hanzi_writer_cross = R"({"medians":[[[100,400],[900,400]],[[512,800],[512,0]]]})";
 
 std::string complaint(const std::filesystem::path& source, const ImportOptions& options = {}) {
@@ -199,7 +200,8 @@ TEST_CASE("an import states its source, its licence and that it was modified", "
   Provenance found = import_characters(brush.path()).list.provenance;
   CHECK(found.source == "Make Me a Hanzi");
   CHECK(found.licence_text.empty());
-  CHECK(import_characters(brush.path()).report.notes.size() == 1);
+  const std::vector<std::string> notes = import_characters(brush.path()).report.notes;
+  CHECK((notes.size() == 1 && has(notes[0], "drawings of your own")));
 
   brush.write("ARPHICPL.TXT", "ARPHIC PUBLIC LICENSE\r\nTerms\r");
   brush.write("package.json", R"({"name":"hanzi-writer-data","version":"2.0.1"})");
@@ -222,6 +224,41 @@ TEST_CASE("an import states its source, its licence and that it was modified", "
   CHECK(found.licence == "Creative Commons Attribution-Share Alike 3.0");
   CHECK(has(found.attribution, "Ulrich Apel"));
   CHECK(found.licence_text == " Copyright U. Apel ");
+
+  lines.write("own/04e00.svg", "<svg viewBox=\"0 0 109 109\"><path d=\"" + heng + "\"/></svg>");
+  const ImportResult own = import_characters(lines.path() / "own");
+  CHECK(own.list.provenance.source == "drawings in SVG");
+  CHECK(own.list.provenance.licence.empty());
+  CHECK(own.list.provenance.attribution == "changed by calligraphy: fitted to typical strokes");
+  CHECK(own.report.notes.size() == 1);
+}
+
+TEST_CASE("files in another encoding or of another form are told by their name and what was expected", "[practice]") {
+  const auto utf16 = [](const std::string& text) {
+    std::string bytes = "\xFF\xFE";
+    for (const char c : text) bytes += {c, '\0'};
+    return bytes;
+  };
+  const std::string map = "{\"十\": " + hanzi_writer_cross + "}";
+  const std::string list = "[\n" + named_heng + ",\n" + named_heng + "\n]";
+  const std::vector<std::pair<std::string, std::pair<std::string, std::string>>> cases = {
+      {"graphics16.txt", {utf16(named_heng), "is UTF-16"}},
+      {"一.json", {utf16(hanzi_writer_heng), "is UTF-16"}},
+      {"04e00.svg", {utf16(kanjivg({{"", heng}})), "is UTF-16"}},
+      {"own.txt", {utf16("calligraphy characters 2\n"), "is UTF-16"}},
+      {"二.json", {"{\"character\":\"\xB6\xFE\"}", "is not UTF-8 (byte 14 is invalid): save it as UTF-8"}},
+      {"三.json", {"{\"medians\":[,", "not JSON at byte 13"}},
+      {"map.json", {map, "is an object of objects: expected one character"}},
+      {"list", {list, "is an array: expected one character"}}};
+  for (const auto& [name, content] : cases) {
+    const TemporaryDirectory directory;
+    directory.write(name, content.first);
+    const std::string path = (directory.path() / name).string(), said = complaint(path);
+    INFO(said);
+    CHECK(said.starts_with("FormatError " + path + ":"));
+    CHECK(has(said, content.second));
+    CHECK_FALSE(has(said, "json.exception"));
+  }
 }
 
 TEST_CASE("unusable files are skipped with the reason, or the first fails a strict import, for any number of threads",
@@ -257,7 +294,6 @@ TEST_CASE("unusable files are skipped with the reason, or the first fails a stri
 }
 
 TEST_CASE("a character is named in many ways, and a name that the file contradicts makes it unusable", "[practice]") {
-  const std::string named = R"({"character":"一","medians":[[[100,400],[900,400]]]})";
   for (const char* const name :
        {"%E4%B8%80.json", "19968.json", "U+4E00.json", "u4e00.json", "4e00.json", "04e00.json"}) {
     INFO(name);
@@ -273,9 +309,9 @@ TEST_CASE("a character is named in many ways, and a name that the file contradic
   hexadecimal.write("05341.json", hanzi_writer_cross);  // by the zero, for all its digits are decimal
   CHECK(import_characters(hexadecimal.path()).list.characters.at(0).code == U'十');
   const TemporaryDirectory directory;
-  directory.write("a/data.json", named);
-  directory.write("b/二.json", named);
-  directory.write("c/一.json", named);
+  directory.write("a/data.json", named_heng);
+  directory.write("b/二.json", named_heng);
+  directory.write("c/一.json", named_heng);
   directory.write("d/other.json", R"({"name":"x"})");
   const ImportResult import = import_characters(directory.path());
   CHECK(import.list.characters.size() == 1);
@@ -390,6 +426,7 @@ TEST_CASE("a stroke order that is known to be wrong is put right where it was dr
   const ImportResult corrected = imported(drawn("392,447"));
   CHECK(corrected.list.characters.at(0).sequence.stroke_ids == right);
   REQUIRE(corrected.report.corrected.size() == 1);
+  CHECK(has(corrected.list.provenance.attribution, "; some stroke orders corrected"));
   CHECK(corrected.report.corrected[0].code == U'冉');
   CHECK(corrected.report.corrected[0].reason == "the shu before the heng");
   for (const char* const elsewhere : {"392,459", "380,447"}) {
@@ -400,6 +437,12 @@ TEST_CASE("a stroke order that is known to be wrong is put right where it was dr
   ImportOptions options;
   options.corrections = false;
   CHECK(imported(drawn("392,447"), options).list.characters.at(0).sequence.stroke_ids == wrong);
+  const TemporaryDirectory others;
+  others.write("lines/04e00.svg", kanjivg({{"㇐", heng}}));
+  others.write("own.txt", text_of(corrected.list));
+  for (const char* const source : {"lines", "own.txt"}) {
+    CHECK(has(complaint(others.path() / source, options), "ValueError corrections: applies only to"));
+  }
 }
 
 TEST_CASE("a compatibility ideograph or a radical asks for the ideograph that it means", "[practice]") {

@@ -53,8 +53,9 @@ char32_t only_code(const std::string& text) {
   return codes.size() == 1 ? codes[0] : 0;
 }
 
-/// True if more than one line begins a JSON object.
+/// True if more than one line begins a JSON object, but not of an array.
 bool has_character_a_line(std::string_view text) {
+  if (text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size())).starts_with('[')) return false;
   std::size_t objects = text.starts_with('{') ? 1 : 0;
   for (std::size_t end = text.find('\n'); end < text.size() && objects < 2; end = text.find('\n', end + 1)) {
     if (text.substr(end + 1).starts_with('{')) ++objects;
@@ -154,6 +155,10 @@ class Selection {
   /// Adds the drawings in a file, or why there are none. `is_only`: it is the source.
   void take(SourceFile file, bool is_only) {
     FileName name = parse_file_name(file.path);
+    if (is_utf16(file.text)) {
+      const bool is_meant = is_only || name.form == FileForm::list || name.has_meaning();
+      return skip(file.path, is_meant ? "is UTF-16, not UTF-8: save it as UTF-8" : "not a character file", is_meant);
+    }
     const std::size_t mark = file.text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
     if (name.form == FileForm::none) {  // the only one: its content tells
       const std::size_t first = file.text.find_first_not_of(" \t\r\n", mark);
@@ -331,6 +336,13 @@ SourceKind kind_of(const DrawingSource& source, const std::string& name, const I
   return kind;
 }
 
+/// Whether any drawing in lines of a pen is KanjiVG's, and not just in the same frame.
+bool is_of_kanjivg(const DrawingSource& source) {
+  return std::any_of(source.files.begin(), source.files.end(), [](const DrawingFile& file) {
+    return file.text.find("kvg:") != std::string::npos || file.text.find("KanjiVG") != std::string::npos;
+  });
+}
+
 /// ", as hanzi-writer-data 2.0.1" if the source is the complete package.
 std::string package_words(const std::string& package_json) {
   const auto package = nlohmann::json::parse(package_json, nullptr, false);
@@ -382,6 +394,11 @@ Provenance provenance(const DrawingSource& source, const ImportOptions& options,
                       std::vector<std::string>& notes) {
   const std::string change = "; changed by calligraphy: fitted to typical strokes" +
                              (options.date.empty() ? std::string() : " on " + options.date);
+  if (source.kind == SourceKind::kanjivg && !is_of_kanjivg(source)) {
+    notes.emplace_back("no drawing has an attribute of KanjiVG (kvg:): no licence or author is stated; state yours in "
+                       "the head of the text format");
+    return {"drawings in SVG", "", change.substr(2), notice};
+  }
   if (source.kind == SourceKind::kanjivg) {
     if (notice.empty()) notes.push_back("the source has no copyright notice to include");
     return {"KanjiVG" + package_words(source.package), "Creative Commons Attribution-Share Alike 3.0",
@@ -389,7 +406,10 @@ Provenance provenance(const DrawingSource& source, const ImportOptions& options,
   }
   if (source.licence.empty()) {
     notes.push_back("the source has no " + std::string(licence_file) +
-                    ": add the Arphic Public License when redistributing the characters");
+                    ": add the Arphic Public License when redistributing the characters" +
+                    (source.package.empty() && source.kind == SourceKind::hanzi_writer_data
+                         ? "; drawings of your own are not under it: edit the head of the text format"
+                         : ""));
   }
   const std::string letters = options.letters.empty() ? "" : "; stroke letters: theajack, cnchar-order (MIT)";
   if (source.kind == SourceKind::anim_cjk) {
@@ -414,6 +434,7 @@ void check_applies(const ImportOptions& options, SourceKind kind) {
   };
   using enum SourceKind;
   refuse(!options.letters.empty(), "letters", {hanzi_writer_data, make_me_a_hanzi, anim_cjk});
+  refuse(!options.corrections, "corrections", {hanzi_writer_data, make_me_a_hanzi, anim_cjk});
   refuse(options.ink == InkDetail::half_widths, "ink half-widths", {hanzi_writer_data, make_me_a_hanzi, anim_cjk});
   refuse(options.alternates, "alternates", {kanjivg});
   refuse(!options.ideographs_only, "ideographs_only", {kanjivg});
