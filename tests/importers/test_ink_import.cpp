@@ -221,7 +221,7 @@ TEST_CASE("a table is read by the names of its columns, and a gap in a field is 
   const InkImport tablet = read("T;X;Y;P;Altitude;Azimuth\n1;0;0;9;600;900\n9;1;1;0;600;900\n17;2;2;9;600;900\n");
   CHECK((tablet.traces.at(0).strokes.size() == 2 && is_noted(tablet, "where the pressure is above 0")));
   CHECK(tablet.traces[0].strokes[0][0].stylus.azimuth == Approx(0.0).margin(1e-12));  // Wintab's east
-  CHECK(complaint(csv).find("永.txt:2: the pressure is '0,0': expected a number") != std::string::npos);
+  CHECK(complaint(csv).find("永.txt:2: the pressure is '0,0': expected a number with a decimal point") != std::string::npos);
 }
 
 TEST_CASE("what was written is from the file, else the text, else the file's name", "[importers]") {
@@ -232,6 +232,13 @@ TEST_CASE("what was written is from the file, else the text, else the file's nam
   CHECK((import.traces.at(0).character == U'永' && import.text_used == 1));
   CHECK(read(svc, "a/U+4E01.x.svc").traces.at(0).character == U'丁');
   CHECK(read(svc, "a/writer3_永-1.svc").traces.at(0).character == U'永');
+  const std::string three = "x,y,stroke,id\n0,0,1,a\n0,0,1,b\n,,,\n0,0,1,c\n";
+  CHECK(complaint(three, "永.csv", text).find("--text has 2 characters for this file, and more are needed") !=
+        std::string::npos);
+  CHECK(read("x,y,stroke,label\n0,0,1,U+5341\n").traces.at(0).character == U'十');
+  const InkImport foreign = read("x,y,stroke,label\n0,0,1,\xCA\xAE\n");  // 十 in GBK
+  CHECK(is_noted(foreign, "the label 'ʮ' (U+02AE) is no Chinese character: is the file in UTF-8?"));
+  CHECK(is_noted(foreign, "--y-axis"));
   CHECK(complaint(svc, "永/2013.svc").find("give the text that was written") != std::string::npos);
 }
 
@@ -266,10 +273,13 @@ TEST_CASE("what cannot be read is refused with the place and the value", "[impor
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", "is empty"},
       {std::string("\xFF\xFE<\0i\0", 6), "is UTF-16, not UTF-8: save it as UTF-8"},
-      {"\xE6\xB0", "is not UTF-8 text"},
+      {"\xE6\xB0", "is not UTF-8 (byte 0 is invalid): save it as UTF-8"},
       {"永", "is none of the formats"},
-      {"{\"x\":1}", "is none of the formats"},
-      {"x,pos_x,y,stroke\n", "'x' and 'pos_x' may both be"},
+      {"{\"x\":1,\"y\":2}", "is JSON, but not of signature_pad's toData()"},
+      {"[{\"medians\":[[[1,2],[3,4]]]}]", "toData(): characters are read by `calligraphy import`"},
+      {"x,y,x,stroke\n", "there are two columns 'x'"},
+      {"x;y;stroke\n0,5;0;1\n", "the x is '0,5': expected a number with a decimal point"},
+      {"x,pos_x,y,stroke\n", "'x' and 'pos_x' may both be x;"},
       {"x,y,z\n", "no column stroke or pen_down, which tells pen-downs apart; the columns are 'x', 'y', 'z'"},
       {"a,b\n1,2\n", "no column x; the columns are 'a', 'b'"},
       {"x,y,p\n1,2,3\n", "which tells pen-downs apart, and the pressure is never 0"},

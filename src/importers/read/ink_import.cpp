@@ -30,6 +30,16 @@ std::string_view root_element(std::string_view text) {
   return tag.substr(tag.find(':') + 1);
 }
 
+/// @throws FormatError naming the file and the byte
+void check_utf8(std::string_view bytes, std::string_view name) {
+  if (is_utf8(bytes)) return;
+  try {
+    decode_utf8(bytes);
+  } catch (const FormatError& error) {
+    fail_ink(name, error.what());
+  }
+}
+
 /// As `replay` reads the text format.
 InkImport own_traces(std::string_view text, std::string_view name, const InkOptions& options) {
   InkImport import{InkFormat::pen_traces, parse_pen_traces(text, name), {}, 0};
@@ -60,13 +70,20 @@ InkImport import_ink(std::string_view bytes, std::string_view name, const InkOpt
   if (bytes.size() > max_ink_bytes) fail_ink(name, "larger than 64 MiB");
   if (is_utf16(bytes)) fail_ink(name, "is UTF-16, not UTF-8: save it as UTF-8");
   if (bytes.starts_with(utf8_mark)) bytes.remove_prefix(utf8_mark.size());
-  if (!is_utf8(bytes)) fail_ink(name, "is not UTF-8 text");
+  check_utf8(bytes, name);
   const std::string_view text = trimmed(bytes);
   if (text.empty()) fail_ink(name, "is empty");
   const std::string_view root = root_element(text);
   if (root == "ink") return traces_of(read_inkml(bytes, name), name, options);
   if (root.starts_with("character")) return traces_of(read_tegaki(bytes, name), name, options);
-  if (text.front() == '[') return traces_of(read_signature_pad(bytes, name), name, options);
+  if (text.front() == '{' || text.front() == '[') {
+    const bool has_medians = text.find("\"medians\"") != std::string_view::npos;
+    if (text.front() == '{' || has_medians) {
+      fail_ink(name, std::string("is JSON, but not of signature_pad's toData()") +
+                         (has_medians ? ": characters are read by `calligraphy import`" : ""));
+    }
+    return traces_of(read_signature_pad(bytes, name), name, options);
+  }
   if (is_svc(text)) return traces_of(read_svc(bytes, name), name, options);
   if (text.starts_with("C ") || text.starts_with("V ") || text.front() == '#') return own_traces(bytes, name, options);
   if (is_ink_table(text)) return traces_of(read_ink_table(bytes, name), name, options);

@@ -128,6 +128,8 @@ class TableReader {
     while (in_.next()) {
       if (trimmed(in_.line()).empty()) continue;
       split_fields(in_.line(), separator_, fields_);
+      const auto is_blank = [](const std::string& each) { return trimmed(each).empty(); };
+      if (std::all_of(fields_.begin(), fields_.end(), is_blank)) continue;
       if (fields_.size() != width_) {
         in_.fail("has " + std::to_string(fields_.size()) + " fields: the first line has " + std::to_string(width_));
       }
@@ -165,9 +167,12 @@ class TableReader {
       const std::optional<Role> role = role_of(heading.word);
       if (!role) continue;
       std::size_t& to = columns_[static_cast<std::size_t>(*role)];
+      if (to != no_column && trimmed(names[to]) == trimmed(names[i])) {
+        in_.fail("there are two columns " + in_quotes(trimmed(names[i])) + "; the columns are " + found);
+      }
       if (to != no_column) {
         in_.fail("the columns " + in_quotes(names[to]) + " and " + in_quotes(names[i]) + " may both be " +
-                 std::string(names_of_role(*role)) + "; the columns are " + found);
+                 std::string(names_of_place(*role)) + "; the columns are " + found);
       }
       to = i;
       units_[static_cast<std::size_t>(*role)] = heading.unit;
@@ -251,7 +256,10 @@ class TableReader {
   double number(Role role) {
     const std::optional<double> value = finite_number(field(role));
     if (value) return *value;
-    in_.fail("the " + std::string(names_of_place(role)) + " is " + in_quotes(field(role)) + ": expected a number");
+    std::string text(field(role));
+    std::replace(text.begin(), text.end(), ',', '.');
+    in_.fail("the " + std::string(names_of_place(role)) + " is " + in_quotes(field(role)) + ": expected a number" +
+             (finite_number(text) ? " with a decimal point" : ""));
   }
 
   static std::string_view names_of_place(Role role) {

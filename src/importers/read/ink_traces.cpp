@@ -1,6 +1,7 @@
 // From a file's own units to em and seconds: what is not declared is seen from the whole file, and told.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <optional>
 
@@ -277,7 +278,7 @@ void turn_as_needed(InkFile& file, std::vector<PenTrace>& traces, const InkOptio
     file.notes.push_back(std::string("y points ") + to_string(axis) + ", as the writing shows");
   } else {
     file.notes.push_back(std::string("y is taken to point ") + to_string(axis) + ", as is usual of " +
-                         to_string(file.format) + ": there is too little writing to tell");
+                         to_string(file.format) + ": there is too little writing to tell; --y-axis decides");
   }
   if (axis == YAxis::up) std::for_each(traces.begin(), traces.end(), turn_over);
   if (file.azimuth_from_north || axis == YAxis::up) return;
@@ -295,21 +296,53 @@ void turn_as_needed(InkFile& file, std::vector<PenTrace>& traces, const InkOptio
 
 // Characters ----------------------------------------------------------------------------------------------------------
 
-/// Empty if the label is not one character.
+bool is_han_or_kana(char32_t code) {
+  return (code >= 0x2E80 && code <= 0x2FDF) || (code >= 0x3041 && code <= 0x9FFF) ||
+         (code >= 0xF900 && code <= 0xFAFF) || (code >= 0x20000 && code <= 0x3FFFF);
+}
+
+/// U+6C38, u6c38 or 6c38; without a prefix only Chinese and Japanese characters, since other numbers are common.
+char32_t code_in_word(std::string_view word) {
+  const bool has_prefix = word.starts_with("U+") || word.starts_with("u+");
+  if (has_prefix) word.remove_prefix(2);
+  else if (word.starts_with('U') || word.starts_with('u')) word.remove_prefix(1);
+  std::uint32_t code = 0;
+  const char* const end = word.data() + word.size();
+  const auto [rest, error] = from_chars(word.data(), end, code, 16);
+  if (word.size() < 4 || word.size() > 6 || error != std::errc() || rest != end) return 0;
+  if (has_prefix && code > 0x20 && code <= 0x10FFFF && !(code >= 0xD800 && code <= 0xDFFF)) return code;
+  return is_han_or_kana(code) ? code : 0;
+}
+
+/// Empty if the label is not one character, itself or as U+6C38.
 std::optional<TextCharacter> character_of_label(std::string_view label) {
   label = label.substr(0, 64);
   if (!is_utf8(label)) return std::nullopt;
-  const std::vector<TextCharacter> characters = text_characters(label);
+  const bool may_be_code = label.starts_with('U') || label.starts_with('u');
+  const char32_t code = may_be_code ? code_in_word(label) : 0;
+  const std::vector<TextCharacter> characters = text_characters(code != 0 ? encode_utf8(code) : std::string(label));
   if (characters.size() != 1 || characters[0].written < 0x20 || characters[0].written == 0x7F) return std::nullopt;
   return characters[0];
 }
 
-std::size_t set_characters(const InkFile& file, std::vector<PenTrace>& traces, std::string_view name,
+/// Two bytes of GBK or Shift JIS may look like a letter of UTF-8 before those of Chinese and Japanese.
+void note_foreign_label(char32_t code, std::vector<std::string>& notes) {
+  constexpr char32_t last_ascii = 0x7F, first_radical = 0x2E80;
+  if (code <= last_ascii || code >= first_radical) return;
+  char number[16];
+  std::snprintf(number, sizeof number, "U+%04X", static_cast<unsigned>(code));
+  const std::string note =
+      "the label '" + encode_utf8(code) + "' (" + number + ") is no Chinese character: is the file in UTF-8?";
+  if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+}
+
+std::size_t set_characters(InkFile& file, std::vector<PenTrace>& traces, std::string_view name,
                            const InkOptions& options) {
   std::size_t used = 0;
   for (std::size_t i = 0; i < traces.size(); ++i) {
     const std::string& label = file.groups[i].label;
     std::optional<TextCharacter> character = character_of_label(label);
+    if (character) note_foreign_label(character->written, file.notes);
     if (!character && used < options.text.size()) character = options.text[used++];
     if (character) {
       traces[i].character = character->written;
@@ -320,9 +353,14 @@ std::size_t set_characters(const InkFile& file, std::vector<PenTrace>& traces, s
     if (traces[i].character != 0) continue;
     const std::string which =
         traces.size() == 1 ? "what was written" : "which its character " + std::to_string(i + 1) + " is";
+    if (used > 0) {
+      fail_ink(name, "--text has " + std::to_string(used) + (used == 1 ? " character" : " characters") +
+                         " for this file, and more are needed: it does not say which its character " +
+                         std::to_string(i + 1) + " is");
+    }
     fail_ink(name, (label.empty() ? "does not say " + which
                                   : "the label '" + printable(label.substr(0, 40)) + "' is not one character") +
-                       ": give the text that was written (--text)");
+                       ": give the text that was written (--text), a character for each that no file names");
   }
   return used;
 }
@@ -364,24 +402,6 @@ void require_valid(const std::vector<PenTrace>& traces, std::string_view name) {
     }
     if (!trace.air.empty()) check(trace.air.back(), "the air after the last stroke");
   }
-}
-
-bool is_han_or_kana(char32_t code) {
-  return (code >= 0x2E80 && code <= 0x2FDF) || (code >= 0x3041 && code <= 0x9FFF) ||
-         (code >= 0xF900 && code <= 0xFAFF) || (code >= 0x20000 && code <= 0x3FFFF);
-}
-
-/// U+6C38, u6c38 or 6c38; without a prefix only Chinese and Japanese characters, since other numbers are common.
-char32_t code_in_word(std::string_view word) {
-  const bool has_prefix = word.starts_with("U+") || word.starts_with("u+");
-  if (has_prefix) word.remove_prefix(2);
-  else if (word.starts_with('U') || word.starts_with('u')) word.remove_prefix(1);
-  std::uint32_t code = 0;
-  const char* const end = word.data() + word.size();
-  const auto [rest, error] = from_chars(word.data(), end, code, 16);
-  if (word.size() < 4 || word.size() > 6 || error != std::errc() || rest != end) return 0;
-  if (has_prefix && code > 0x20 && code <= 0x10FFFF && !(code >= 0xD800 && code <= 0xDFFF)) return code;
-  return is_han_or_kana(code) ? code : 0;
 }
 
 std::string_view stem_of(std::string_view name) {
