@@ -221,7 +221,8 @@ TEST_CASE("a table is read by the names of its columns, and a gap in a field is 
   const InkImport tablet = read("T;X;Y;P;Altitude;Azimuth\n1;0;0;9;600;900\n9;1;1;0;600;900\n17;2;2;9;600;900\n");
   CHECK((tablet.traces.at(0).strokes.size() == 2 && is_noted(tablet, "where the pressure is above 0")));
   CHECK(tablet.traces[0].strokes[0][0].stylus.azimuth == Approx(0.0).margin(1e-12));  // Wintab's east
-  CHECK(complaint(csv).find("永.txt:2: the pressure is '0,0': expected a number with a decimal point") != std::string::npos);
+  CHECK(complaint(csv).find("永.txt:2: the pressure is '0,0': expected a number with a decimal point") !=
+        std::string::npos);
 }
 
 TEST_CASE("what was written is from the file, else the text, else the file's name", "[importers]") {

@@ -47,7 +47,8 @@ class Reader {
     const auto medians = root_.find("medians");
     if (medians == root_.end()) {
       const auto is_object = [](const Json& each) { return each.is_object(); };
-      if (std::any_of(root_.begin(), root_.end(), is_object)) fail("", "is an object of objects" + std::string(expected));
+      const bool has_objects = std::any_of(root_.begin(), root_.end(), is_object);
+      if (has_objects) fail("", "is an object of objects" + std::string(expected));
       fail("medians", "missing");
     }
     if (!medians->is_array() || medians->empty()) fail("medians", "expected a non-empty array");
