@@ -44,7 +44,7 @@ TEST_CASE("several characters tell which way y points, and one heng does not", "
   CHECK_FALSE(recognise_y_axis({}));
 }
 
-TEST_CASE("a page upside down, strokes backwards or in reverse order are no y axis that points up", "[judge]") {
+TEST_CASE("a page turned by a quarter, upside down, strokes backwards or in reverse order are no y axis that points up", "[judge]") {
   const auto changed = [](auto change) {
     std::vector<PenTrace> traces = built_in_traces();
     for (PenTrace& trace : traces) change(trace);
@@ -60,6 +60,13 @@ TEST_CASE("a page upside down, strokes backwards or in reverse order are no y ax
       for (TimedPoint& point : stroke) point.point.x() = 1.0 - point.point.x();
     }
   };
+  const auto turned_by_a_quarter = [](PenTrace& trace) {
+    for (PenStroke& stroke : trace.strokes) {
+      for (TimedPoint& point : stroke) point.point = Point(1.0 - point.point.y(), point.point.x());
+    }
+  };
+  CHECK_FALSE(recognise_y_axis(changed(turned_by_a_quarter)));  // counterclockwise: strokes go up and to the right
+  CHECK_FALSE(recognise_y_axis(turned(changed(turned_by_a_quarter))));
   CHECK_FALSE(recognise_y_axis(changed(backwards)));
   CHECK_FALSE(recognise_y_axis(changed(in_reverse)));
   CHECK_FALSE(recognise_y_axis(changed(upside_down)));

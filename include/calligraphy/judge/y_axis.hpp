@@ -18,10 +18,10 @@ enum class YAxis {
 const char* to_string(YAxis axis) noexcept;
 
 /// The y axis of a file, from its traces as they are when it is read as one that points down. It needs no templates:
-/// hands write shù, piě, nà and dots downwards, and later strokes lower. Both must say the same, and héng go to the
-/// right if it is to be up, because a page that is upside down, or strokes written backwards, reverse only one of these.
-/// Several traces of a character count as one: what somebody does wrong in it is then done wrong again.
-/// Empty if there is too little evidence, as in 一 alone.
+/// strokes and the moves between them go where people's go. A mirrored page must explain them better than one that is
+/// turned by a quarter or upside down, or than strokes written backwards. Several traces of a character count as one: what
+/// somebody does wrong in it is then done wrong again. Empty if there is too little evidence, as in 一 alone, or if
+/// another explanation is the best.
 std::optional<YAxis> recognise_y_axis(std::span<const PenTrace> traces);
 
 /// Reads a trace again, with the y axis the other way round: y becomes 1 - y, in the air too. What the pen senses
