@@ -295,7 +295,8 @@ TEST_CASE("unusable files are skipped with the reason, or the first fails a stri
 
 TEST_CASE("a character is named in many ways, and a name that the file contradicts makes it unusable", "[practice]") {
   for (const char* const name :
-       {"%E4%B8%80.json", "19968.json", "U+4E00.json", "u4e00.json", "4e00.json", "04e00.json"}) {
+       {"%E4%B8%80.json", "19968.json", "U+4E00.json", "u4e00.json", "4e00.json", "04e00.json",
+        "一 (1).JSON", "一\U000E0100.json"}) {
     INFO(name);
     const TemporaryDirectory directory;
     directory.write(name, hanzi_writer_heng);

@@ -57,15 +57,22 @@ std::vector<std::vector<Point>> anim_outline(const SvgPath& path) {
   return polygons;
 }
 
-void add_path(const SvgPath& path, std::map<int, SourceStroke>& strokes) {
+/// Returns the number of its points.
+std::size_t add_path(const SvgPath& path, std::map<int, SourceStroke>& strokes) {
+  std::size_t points = 0;
   if (const int clipped = clipped_stroke(path.clip); clipped > 0) {
     std::vector<Point>& median = strokes[clipped].path;
-    if (!median.empty()) return;  // that of a later part begins beside the character
+    if (!median.empty()) return 0;  // that of a later part begins beside the character
     median = flattened_path(path.data, anim_outline_tolerance * anim_units_per_em);
     for (Point& point : median) point = in_anim_em(point);
+    points = median.size();
   } else if (const int drawn = stroke_number(path.id, 'd'); drawn > 0) {
-    for (std::vector<Point>& polygon : anim_outline(path)) strokes[drawn].outline.push_back(std::move(polygon));
+    for (std::vector<Point>& polygon : anim_outline(path)) {
+      points += polygon.size();
+      strokes[drawn].outline.push_back(std::move(polygon));
+    }
   }
+  return points;
 }
 
 }  // namespace
@@ -84,14 +91,16 @@ Drawing parse_anim_cjk(std::string_view svg, const std::string& name) {
   SvgDrawing paths = parse_svg(svg, anim_units_per_em, name);
   if (paths.paths.size() > max_svg_paths) throw FormatError(name + ": more than 1024 paths");
   std::map<int, SourceStroke> strokes;
+  std::size_t points = 0;
   for (const SvgPath& path : paths.paths) {
     try {
-      add_path(path, strokes);
+      points += add_path(path, strokes);
     } catch (const FormatError& error) {
       const std::string place = path.id.empty() ? "median" : "outline";
       const int number = path.id.empty() ? clipped_stroke(path.clip) : stroke_number(path.id, 'd');
       throw FormatError(name + ": stroke " + std::to_string(number) + ": " + place + ": path data " + error.what());
     }
+    if (points > max_drawing_points) throw FormatError(name + ": " + too_many_points());
   }
   if (strokes.empty()) throw FormatError(name + ": no <path> of a stroke");
   Drawing drawing;

@@ -32,13 +32,21 @@ struct DrawingFile {
 };
 
 struct SourceStroke {
-  std::vector<Point> path;         ///< the median of a brush stroke or the line of a pen [em]
+  std::vector<Point> path;                  ///< the median of a brush stroke or the line of a pen [em]
   std::vector<std::vector<Point>> outline;  ///< of a brush stroke: polygons that are filled together; otherwise empty
-  std::string label;               ///< empty if there is none
-  std::span<const int> label_ids;  ///< typical strokes that the label allows
+  std::string label;                        ///< empty if there is none
+  std::span<const int> label_ids;           ///< typical strokes that the label allows
 
+  std::size_t point_count() const {
+    std::size_t count = path.size();
+    for (const std::vector<Point>& polygon : outline) count += polygon.size();
+    return count;
+  }
   bool allows(int id) const { return std::find(label_ids.begin(), label_ids.end(), id) != label_ids.end(); }
 };
+
+/// Of all strokes of a drawing; those of fonts have some thousand.
+inline constexpr std::size_t max_drawing_points = 100'000;
 
 struct Drawing {
   std::vector<SourceStroke> strokes;  ///< in writing order
@@ -46,6 +54,8 @@ struct Drawing {
   std::string correction;            ///< why the order of the strokes was changed; empty: it was not
   bool letters_unused = false;       ///< there are letters for the character, but not one per stroke
 };
+
+inline std::string too_many_points() { return "more than " + std::to_string(max_drawing_points) + " points so far"; }
 
 /// `corrections`: correct_order(). `letters` label the strokes of hanzi-writer-data.
 /// @throws FormatError naming the place

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/base/text.hpp>
+#include <calligraphy/model/character_text.hpp>
 
 #include "base/charconv.hpp"
 
@@ -48,9 +50,9 @@ std::string percent_decoded(std::string_view text) {
 /// The only character of a text, unless it is of an alphabet: in a zip, two bytes of GBK may look like such a letter.
 char32_t only_character(const std::string& text) {
   try {
-    const std::u32string codes = decode_utf8(text);
+    const std::vector<TextCharacter> characters = text_characters(text);
     constexpr char32_t radicals = 0x2E80;
-    if (codes.size() == 1 && codes[0] >= radicals) return codes[0];
+    if (characters.size() == 1 && characters[0].written >= radicals) return characters[0].written;
   } catch (const FormatError&) {  // the name is in another encoding
   }
   return 0;
@@ -62,6 +64,21 @@ char32_t unicode_notation(std::string_view stem) {
     if (stem.starts_with(prefix)) return number_in(stem.substr(prefix.size()), 16);
   }
   return 0;
+}
+
+/// Without the number that browsers put behind the name of a file that they have already: 永 (1).
+std::string_view without_copy_number(std::string_view stem) {
+  const std::size_t open = stem.rfind(" (");
+  if (open == stem.npos || !stem.ends_with(')')) return stem;
+  const std::string_view number = stem.substr(open + 2, stem.size() - open - 3);
+  const bool is_number = !number.empty() && number.find_first_not_of("0123456789") == number.npos;
+  return is_number ? stem.substr(0, open) : stem;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
 }
 
 /// Sets the codes of a name without its extension.
@@ -104,12 +121,12 @@ FileName parse_file_name(std::string_view path) {
   const std::string_view last = last_part(path);
   const std::size_t dot = last.rfind('.');
   if (dot == last.npos || is_of_macos(path)) return name;
-  const std::string_view extension = last.substr(dot);
+  const std::string extension = lower_case(last.substr(dot));
   if (list_suffix(last)) {
     name.form = FileForm::list;
   } else if (extension == ".svg" || extension == ".json") {
     name.form = extension == ".svg" ? FileForm::svg : FileForm::json;
-    read_stem(last.substr(0, dot), name);
+    read_stem(without_copy_number(last.substr(0, dot)), name);
   }
   return name;
 }

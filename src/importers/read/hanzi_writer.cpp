@@ -57,6 +57,7 @@ class Reader {
     for (std::size_t i = 0; i < medians->size(); ++i) {
       result.push_back({median((*medians)[i], place_in("medians", i)), {}, {}, {}});
     }
+    std::size_t points = 0;
     const auto outlines = root_.find("strokes");
     if (outlines == root_.end()) return result;
     if (!outlines->is_array() || outlines->size() != result.size()) {
@@ -64,6 +65,7 @@ class Reader {
     }
     for (std::size_t i = 0; i < result.size(); ++i) {
       result[i].outline = outline((*outlines)[i], place_in("strokes", i));
+      if ((points += result[i].point_count()) > max_drawing_points) fail(place_in("strokes", i), too_many_points());
     }
     return result;
   }

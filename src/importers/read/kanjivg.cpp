@@ -41,10 +41,14 @@ Drawing parse_kanjivg(std::string_view svg, const std::string& name) {
   if (lines.paths.empty()) throw FormatError(name + ": no <path> element: there is no stroke");
   if (lines.paths.size() > max_svg_strokes) throw FormatError(name + ": more than 256 strokes");
   Drawing drawing;
+  std::size_t points = 0;
   drawing.notice = std::move(lines.notice);
   for (SvgPath& path : lines.paths) {
     const std::string place = name + ": stroke " + std::to_string(drawing.strokes.size() + 1);
     drawing.strokes.push_back(stroke_of(std::move(path), place));
+    if ((points += drawing.strokes.back().point_count()) > max_drawing_points) {
+      throw FormatError(place + ": " + too_many_points());
+    }
   }
   return drawing;
 }
