@@ -187,7 +187,8 @@ std::string tables(const ImportResult& import, const ImportOutput& output) {
   const bool fitted = report.kind != SourceKind::calligraphy;
   return fmt::format("{} ({}, {} bytes): {} from {}\n", output.file, output.format, output.bytes,
                      to_string(contents_of(import.list)), calligraphy::to_string(report.kind)) +
-         fmt::format("source: {}\nlicence: {}\nattribution: {}\n", provenance.source, provenance.licence,
+         fmt::format("source: {}\nlicence: {}\nattribution: {}\n", provenance.source,
+                     provenance.licence.empty() ? "not stated" : provenance.licence,
                      provenance.attribution) +
          (fitted ? fit_table(report) : "") + (report.measures.empty() ? "" : measures_table(report, output.bytes)) +
          ink_table(import) + id_table(report) + label_table(report) + corrected_table(report) +

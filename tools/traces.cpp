@@ -97,6 +97,18 @@ std::string traces_json(const std::vector<ReadFigures>& files, const std::string
   return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+/// @throws UsageError if the file needs more of --text than earlier ones left
+InkImport read_ink(const std::string& in, const InkOptions& asked, const TracesArguments& options) {
+  try {
+    return import_ink(unpacked(in), in, asked);
+  } catch (const FormatError& error) {
+    const std::string what = error.what();
+    if (!options.text || !asked.text.empty() || what.find("(--text)") == what.npos) throw;
+    throw UsageError(fmt::format("--text has {}, and more are needed: {}",
+                                 counted(characters_of(*options.text).size(), "character"), what));
+  }
+}
+
 void run(const TracesArguments& options) {
   const bool to_standard_output = options.out == standard_output;
   for (const std::string& in : options.in) {
@@ -116,7 +128,7 @@ void run(const TracesArguments& options) {
   std::vector<PenTrace> traces;
   for (const std::string& in : options.in) {
     interrupt.check();
-    InkImport import = import_ink(unpacked(in), in, asked);
+    InkImport import = read_ink(in, asked, options);
     asked.text.erase(asked.text.begin(), asked.text.begin() + static_cast<std::ptrdiff_t>(import.text_used));
     files.push_back(figures_of(in, std::move(import)));
     for (PenTrace& trace : files.back().import.traces) {
