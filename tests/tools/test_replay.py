@@ -128,11 +128,12 @@ class Replay(ReplayTest):
         def turned(lines):
             return [tuple((x, 1000 - y) for x, y in line) for line in lines]
 
-        pupils = [character(code, turned(lines)) for code, lines in
-                  (("十", TEN), ("三", THREE), ("大", [((120, 400), (900, 390)), ((500, 100), (120, 900)),
-                                                    ((500, 400), (880, 900))]))]
+        dai = [((120, 400), (900, 390)), ((500, 100), (120, 900)), ((500, 400), (880, 900))]
+        tree = [((100, 350), (900, 340)), ((500, 80), (500, 940)), ((480, 350), (120, 750)), ((520, 350), (880, 740))]
+        written = (("十", TEN), ("三", THREE), ("大", dai), ("木", tree))
+        pupils = [character(code, turned(lines)) for code, lines in written]
         report = self.replay(*pupils)
-        self.assertEqual([trace["remarks"] for trace in report["traces"]], [[], [], []])
+        self.assertEqual([trace["remarks"] for trace in report["traces"]], [[], [], [], []])
         told = self.run_program("replay", "pens.txt").stderr
         self.assertEqual((told.count("y seems to point up"), len(report["warnings"])), (1, 1))
         left = self.replay(*pupils, options=("--y-axis", "down"))

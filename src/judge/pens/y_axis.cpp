@@ -24,7 +24,7 @@ constexpr Directions stroke_directions = {-1.66, -2.25, -4.74, -4.62, -4.97, -5.
 constexpr Directions move_directions = {-2.17, -2.25, -2.83, -3.38, -4.02, -3.6,  -3.87, -4.07,
                                         -3.49, -2.82, -2.28, -2.23, -1.87, -2.56, -3.4,  -3.25};
 constexpr double quarter_turn = 0.5 * std::numbers::pi;
-constexpr double least_axis_evidence = 2.0;  // logarithm of how much likelier than the next explanation
+constexpr double least_axis_evidence = 1.2;  // logarithm of how much likelier than the next explanation
 
 /// How a page may have been read: turned by quarters, mirrored or not, the strokes written from their ends or not.
 constexpr std::size_t explanations = 16;
