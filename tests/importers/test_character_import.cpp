@@ -293,6 +293,23 @@ TEST_CASE("unusable files are skipped with the reason, or the first fails a stri
   CHECK(complaint(useless.path()) == "FormatError " + useless.path().string() + ": 一.json: medians: missing");
 }
 
+TEST_CASE("one file of another kind among twenty is unusable, not the source", "[practice]") {
+  const TemporaryDirectory directory;
+  for (int code = 0x4E00; code < 0x4E14; ++code) {
+    char name[16];
+    std::snprintf(name, sizeof name, "%05x.svg", static_cast<unsigned>(code));
+    directory.write(name, kanjivg({{"㇐", heng}}));
+  }
+  directory.write("永.json", hanzi_writer_heng);
+  const ImportResult import = import_characters(directory.path());
+  CHECK((import.report.kind == SourceKind::kanjivg && import.list.characters.size() == 20));
+  REQUIRE(import.report.skipped.size() == 1);
+  CHECK((import.report.skipped[0].unusable && has(import.report.skipped[0].reason, "unlike the other files")));
+  ImportOptions options;
+  options.strict = true;
+  CHECK(has(complaint(directory.path(), options), "contains both hanzi-writer-data and KanjiVG"));
+}
+
 TEST_CASE("a character is named in many ways, and a name that the file contradicts makes it unusable", "[practice]") {
   for (const char* const name :
        {"%E4%B8%80.json", "19968.json", "U+4E00.json", "u4e00.json", "4e00.json", "04e00.json",

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <functional>
 #include <initializer_list>
+#include <map>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -310,6 +311,24 @@ class Selection {
   std::set<std::tuple<SourceKind, char32_t, std::string>> seen_;
 };
 
+/// Makes files unusable that are of another kind than nearly all others.
+void leave_out_strays(DrawingSource& source) {
+  constexpr std::size_t one_in = 20;
+  std::map<SourceKind, std::size_t> counts;
+  for (const DrawingFile& file : source.files) ++counts[file.character.kind];
+  const auto most = std::max_element(counts.begin(), counts.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most == counts.end() || one_in * (source.files.size() - most->second) > source.files.size()) return;
+  const SourceKind kind = most->first;
+  for (const DrawingFile& file : source.files) {
+    if (file.character.kind == kind) continue;
+    source.skipped.push_back({file.path, std::string("is drawn as in ") + to_string(file.character.kind) +
+                                             ", unlike the other files, which are " + to_string(kind) + "'s",
+                              true});
+  }
+  std::erase_if(source.files, [kind](const DrawingFile& file) { return file.character.kind != kind; });
+}
+
 /// @throws FormatError if there are no files, or files of several kinds
 SourceKind kind_of(const DrawingSource& source, const std::string& name, const ImportOptions& options) {
   const std::vector<DrawingFile>& files = source.files;
@@ -385,6 +404,7 @@ DrawingSource read_drawings(const std::filesystem::path& path, const ImportOptio
   DrawingSource source = selection.finish(std::move(found.skipped));
   source.licence = std::move(licence);
   source.package = std::move(package);
+  if (!options.strict) leave_out_strays(source);
   source.kind = kind_of(source, path.string(), options);
   check_applies(options, source.kind);
   return source;
