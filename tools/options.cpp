@@ -85,9 +85,7 @@ std::vector<TextCharacter> characters_of(const std::string& text) {
 std::u32string codes_of(const std::vector<TextCharacter>& text) {
   std::u32string codes;
   for (const TextCharacter& character : text) {
-    for (const char32_t code : {character.written, character.meant}) {
-      if (codes.find(code) == codes.npos) codes += code;
-    }
+    if (codes.find(character.written) == codes.npos) codes += character.written;
   }
   return codes;
 }

@@ -24,7 +24,7 @@ CLI::Validator integer(unsigned long long least, unsigned long long most);
 /// As text_characters(), or typical strokes by their numbers. @throws UsageError if the text is not UTF-8 or has no characters
 std::vector<TextCharacter> characters_of(const std::string& text);
 
-/// The code points that they may have in a source: as written, and as meant.
+/// Their code points as written, each once; import_characters() also takes what they mean.
 std::u32string codes_of(const std::vector<TextCharacter>& text);
 
 /// "北 (U+5317)", or only the code if the character is not printable.

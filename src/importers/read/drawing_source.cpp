@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <functional>
 #include <initializer_list>
-#include <map>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -24,6 +24,7 @@
 #include "base/enum_name.hpp"
 #include "file_name.hpp"
 #include "hanzi_writer.hpp"
+#include "model/code_point_name.hpp"
 #include "source_files.hpp"
 
 namespace calligraphy {
@@ -40,12 +41,6 @@ bool is_ideograph(char32_t code) {
 /// True for a file of the package itself, not of a nested one.
 bool is_package_file(std::string_view path, std::string_view name) {
   return path == name || path == "package/" + std::string(name);
-}
-
-std::string code_text(char32_t code) {
-  char number[16];
-  std::snprintf(number, sizeof number, "U+%04X", static_cast<unsigned>(code));
-  return encode_utf8(code) + " (" + number + ")";
 }
 
 /// 0 if it is not one character.
@@ -221,7 +216,7 @@ class Selection {
     if (code == 0) code = inside;
     if (code == 0) return skip_nameless(file.path, is_only, "an id in it");
     if (is_brush && inside != 0 && inside != code) {
-      return skip(file.path, "its name says " + code_text(code) + ", its id " + code_text(inside), true);
+      return skip(file.path, "its name says " + code_point_name(code) + ", its id " + code_point_name(inside), true);
     }
     const SourceKind kind = is_brush ? SourceKind::anim_cjk : SourceKind::kanjivg;
     add({kind, code, is_brush ? std::string() : name.order}, form, file.path, std::move(file.text));
@@ -271,7 +266,7 @@ class Selection {
       return skip(file.path, "character: \"" + shortened(*member) + "\": expected one character", true);
     }
     if (name.code != 0 && member && inside != name.code) {
-      return skip(file.path, "character: " + code_text(inside) + ", but its name says " + code_text(name.code), true);
+      return skip(file.path, "character: " + code_point_name(inside) + ", but its name says " + code_point_name(name.code), true);
     }
     add({SourceKind::hanzi_writer_data, member ? inside : name.code, {}}, DrawingForm::hanzi_writer, file.path,
         std::move(file.text));

@@ -42,6 +42,7 @@ struct InkFile {
 };
 
 inline constexpr std::size_t max_ink_bytes = 64 << 20;
+inline constexpr std::size_t max_xml_bytes = 16 << 20;  ///< take 16 times that in memory; a page of writing has 0.1 MB
 inline constexpr std::size_t max_ink_strokes = 1000;     ///< of a character
 inline constexpr std::size_t max_ink_points = 1000000;   ///< of a stroke
 inline constexpr std::size_t max_ink_groups = 1000000;

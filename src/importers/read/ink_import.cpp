@@ -74,6 +74,7 @@ InkImport import_ink(std::string_view bytes, std::string_view name, const InkOpt
   const std::string_view text = trimmed(bytes);
   if (text.empty()) fail_ink(name, "is empty");
   const std::string_view root = root_element(text);
+  if (!root.empty() && bytes.size() > max_xml_bytes) fail_ink(name, "larger than 16 MiB: divide it");
   if (root == "ink") return traces_of(read_inkml(bytes, name), name, options);
   if (root.starts_with("character")) return traces_of(read_tegaki(bytes, name), name, options);
   if (text.front() == '{' || text.front() == '[') {

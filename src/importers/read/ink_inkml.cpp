@@ -10,7 +10,7 @@
 #include "base/line_reader.hpp"
 #include "base/require.hpp"
 #include "ink_file.hpp"
-#include "ink_xml.hpp"
+#include "xml_document.hpp"
 
 namespace calligraphy {
 namespace {
@@ -575,7 +575,7 @@ class InkmlReader {
 
 InkFile read_inkml(std::string_view text, std::string_view name) {
   pugi::xml_document document;
-  load_ink_xml(document, text, name);
+  load_xml(document, text, name);
   return InkmlReader(name).read(document.document_element());
 }
 

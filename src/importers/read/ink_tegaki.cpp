@@ -3,7 +3,7 @@
 
 #include "base/line_reader.hpp"
 #include "ink_file.hpp"
-#include "ink_xml.hpp"
+#include "xml_document.hpp"
 
 namespace calligraphy {
 namespace {
@@ -100,7 +100,7 @@ class TegakiReader {
 
 InkFile read_tegaki(std::string_view text, std::string_view name) {
   pugi::xml_document document;
-  load_ink_xml(document, text, name);
+  load_xml(document, text, name);
   return TegakiReader(name).read(document.document_element());
 }
 

@@ -1,4 +1,4 @@
-// XML of pen recordings: nothing here is recursive, because nesting may be as deep as the file is long.
+// XML of drawings and pen recordings: nothing here is recursive, because nesting may be as deep as the file is long.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace calligraphy {
 
-/// @throws FormatError naming the line if the text is no XML, or if it is larger than 16 MiB
-void load_ink_xml(pugi::xml_document& document, std::string_view text, std::string_view name);
+/// With its comments. `name` begins messages. @throws FormatError naming the line if the text is no XML
+void load_xml(pugi::xml_document& document, std::string_view text, std::string_view name);
 
 /// The name of an element without its prefix.
 std::string_view local_name(pugi::xml_node node) noexcept;

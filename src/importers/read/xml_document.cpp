@@ -1,4 +1,4 @@
-#include "ink_xml.hpp"
+#include "xml_document.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,10 +7,9 @@
 
 namespace calligraphy {
 
-void load_ink_xml(pugi::xml_document& document, std::string_view text, std::string_view name) {
-  constexpr std::size_t most = 16 << 20;  // [byte]; takes 16 times that in memory, and a page of writing has 0.1 MB
-  if (text.size() > most) fail_ink(name, "larger than 16 MiB: divide it");
-  const auto result = document.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
+void load_xml(pugi::xml_document& document, std::string_view text, std::string_view name) {
+  const auto result = document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_comments,
+                                           pugi::encoding_utf8);
   if (result) return;
   const auto end = text.begin() + std::clamp<std::ptrdiff_t>(result.offset, 0, std::ssize(text));
   fail_ink(name, "line " + std::to_string(1 + std::count(text.begin(), end, '\n')) + ": not XML: " +
