@@ -1,8 +1,9 @@
 """Draws characters of hanzi-writer-data as SVG: their outlines in grey, beside them in black the ink imported from these.
 
     python3 scripts/ink_picture.py hanzi-writer-data-2.0.1.tgz 永的我龜心飛道北京 docs/images/ink.svg
+    python3 scripts/ink_picture.py hanzi-writer-data-2.0.1.tgz 枕疤九北心我风回白永之饯 sheet.svg 400
 
-Needs the Python module.
+The last argument is the size of an em square in pixels. Needs the Python module.
 """
 
 import json
@@ -11,10 +12,10 @@ import tarfile
 
 import calligraphy as cal
 
-SIZE = 150  # of an em square [px]
 IN_A_ROW = 3
 
 source, text, out = sys.argv[1:4]
+SIZE = int(sys.argv[4]) if len(sys.argv) > 4 else 150  # of an em square [px]
 characters, _ = cal.import_characters(source, only=text)
 
 with tarfile.open(source) as package:

@@ -72,7 +72,7 @@ struct ProfilePlace {
 /// Collects the outline of discs: the points that no disc covers.
 class Envelope {
  public:
-  Envelope(const std::vector<InkDisc>& discs, double tolerance) : discs_(discs), tolerance_(tolerance) {
+  Envelope(std::span<const InkDisc> discs, double tolerance) : discs_(discs), tolerance_(tolerance) {
     for (std::size_t i = 1; i < discs.size(); ++i) {
       const double step = (discs[i].centre - discs[i - 1].centre).norm();
       largest_step_ = std::max(largest_step_, step + std::abs(discs[i].radius - discs[i - 1].radius));
@@ -169,7 +169,7 @@ class Envelope {
     return true;
   }
 
-  const std::vector<InkDisc>& discs_;
+  std::span<const InkDisc> discs_;
   double tolerance_;
   double largest_step_ = 0.0;  ///< most by which a point can be closer to the edge of the next disc [em]
   std::vector<Point> points_;
@@ -209,8 +209,12 @@ std::vector<InkDisc> ink_discs(std::span<const Point> path, const StrokeInk& ink
 
 std::vector<Point> ink_outline(std::span<const Point> path, const StrokeInk& ink, double tolerance) {
   constexpr double spacing = 0.005;  // [em]
+  return ink_outline(ink_discs(path, ink, spacing), tolerance);
+}
+
+std::vector<Point> ink_outline(std::span<const InkDisc> discs, double tolerance) {
   require_above_zero("tolerance", tolerance, "em");
-  const std::vector<InkDisc> discs = ink_discs(path, ink, spacing);
+  if (discs.empty()) throw ValueError("the outline of no discs");
   return Envelope(discs, tolerance).outline();
 }
 

@@ -181,7 +181,8 @@ TEST_CASE("contacts are counted between outlines, and kept or new by the gap of 
                                                  box({0.1, 0.52}, {0.9, 0.6})};
   const InkDisc bar{{0.5, 0.45}, 0.05};
   const auto measured = [&](const InkDisc& second, const InkDisc& third) {
-    return measure_ink(outlines, std::vector<std::vector<InkDisc>>{{bar}, {second}, {third}});
+    return measure_ink(outlines, std::vector<Point>{{0.9, 0.45}, {0.45, 0.1}, {0.9, 0.56}},
+                       std::vector<std::vector<InkDisc>>{{bar}, {second}, {third}});
   };
   const InkMeasures near = measured({{0.5, 0.36}, 0.036}, {{0.5, 0.56}, 0.03});  // gaps of 0.004 and 0.03 em
   CHECK(near.contacts == 1);
@@ -194,6 +195,22 @@ TEST_CASE("contacts are counted between outlines, and kept or new by the gap of 
   CHECK(far.strokes.size() == 3);
   CHECK(far.characters.size() == 1);
   CHECK(far.strokes[0] == Approx(std::numbers::pi * 0.05 * 0.05 / 0.08).epsilon(0.01));
+}
+
+TEST_CASE("what the ink misses and adds is measured to the farthest point, and notches near the tip", "[ink]") {
+  // A bar, and an angle with a notch of 90 degrees into it at (0.5, 0.5).
+  const std::vector<Outline> outlines{
+      box({0.1, 0.4}, {0.9, 0.5}),
+      Path{{0.1, 0.1}, {0.9, 0.1}, {0.9, 0.5}, {0.5, 0.5}, {0.5, 0.9}, {0.1, 0.9}}};
+  const InkMeasures measures = measure_ink(outlines, std::vector<Point>{{0.9, 0.5}, {0.55, 0.55}},
+                                           std::vector<std::vector<InkDisc>>{{{{0.5, 0.45}, 0.08}}, {{{0.5, 0.5}, 0.1}}});
+  CHECK(measures.uncovered[0] == Approx(std::hypot(0.4, 0.05) - 0.08));
+  CHECK(measures.beyond[0] == Approx(0.03).margin(5e-4));
+  CHECK(measures.source_notches[0] == Approx(0.0).margin(1e-6));
+  CHECK(measures.uncovered[1] == Approx(std::hypot(0.4, 0.4) - 0.1));
+  CHECK(measures.beyond[1] == Approx(0.1 * std::numbers::sqrt2 / 2.0).margin(2e-3));
+  CHECK(measures.source_notches[1] == Approx(90.0).margin(10.0));
+  CHECK(measures.notches[1] == Approx(0.0).margin(1e-6));
 }
 
 TEST_CASE("strokes are imported with ink if the source has outlines and it is asked for", "[ink]") {

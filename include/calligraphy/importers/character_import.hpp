@@ -102,8 +102,13 @@ struct StrokeMeasures {
 
 /// How well ink, as a set file at standard precision holds it, covers the outlines of the source.
 struct InkMeasures {
-  std::vector<double> strokes;     ///< for each, intersection over union of the areas of ink and outline [1]
-  std::vector<double> characters;  ///< for each, the same for all its ink and all its outlines [1]
+  std::vector<double> strokes;         ///< for each, intersection over union of the areas of ink and outline [1]
+  std::vector<double> characters;      ///< for each, the same for all its ink and all its outlines [1]
+  std::vector<double> uncovered;       ///< for each stroke, the farthest that its outline lies from the ink [em]
+  std::vector<double> beyond;          ///< for each stroke, the farthest that its ink lies beyond the outline [em]
+  std::vector<double> notches;         ///< for each stroke, the sharpest turn of its edge into the ink within 0.1 em of
+                                       ///< the tip, over 0.04 em [degree]; a hook has one where a needle leaves a knob
+  std::vector<double> source_notches;  ///< the same of the outline [degree]
   int contacts = 0;                ///< pairs of strokes of a character whose outlines overlap
   int contacts_kept = 0;           ///< of these, pairs whose ink is at most 0.5 % of the em apart
   int apart = 0;                   ///< neighbours whose outlines are more than 1 % of the em apart

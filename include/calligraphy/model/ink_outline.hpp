@@ -28,6 +28,9 @@ std::vector<InkDisc> ink_discs(std::span<const Point> path, const StrokeInk& ink
 /// @throws ValueError if the path has no point or the tolerance is not positive
 std::vector<Point> ink_outline(std::span<const Point> path, const StrokeInk& ink, double tolerance = 5e-4);
 
+/// The same of any discs in order. @throws ValueError if there are none or the tolerance is not positive
+std::vector<Point> ink_outline(std::span<const InkDisc> discs, double tolerance = 5e-4);
+
 /// The same along the path of a stroke. @throws ValueError if it has no ink or the tolerance is not positive
 std::vector<Point> ink_outline(const Stroke& stroke, double tolerance = 5e-4);
 

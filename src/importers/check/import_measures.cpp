@@ -32,15 +32,17 @@ void measure_ink(const std::vector<SourceStroke>& drawn, const std::vector<recog
                  const std::vector<recognition::Path>& paths, std::vector<StrokeInput> strokes,
                  ImportedCharacter& result) {
   const char32_t code = result.character.code;
-  result.ink = recognition::measure_ink(outlines, stored_ink(code, strokes));
+  std::vector<Point> ends;
+  for (const SourceStroke& each : drawn) ends.push_back(each.path.back());
+  result.ink = recognition::measure_ink(outlines, ends, stored_ink(code, strokes));
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     strokes[i].ink = recognition::fit_ink(paths[i], drawn[i].path, outlines[i], InkDetail::half_widths);
   }
-  result.plain_ink = recognition::measure_ink(outlines, stored_ink(code, strokes));
+  result.plain_ink = recognition::measure_ink(outlines, ends, stored_ink(code, strokes));
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     strokes[i].ink = typical_ink(strokes[i].id, result.strokes[i].half_width);
   }
-  result.typical_ink = recognition::measure_ink(outlines, stored_ink(code, strokes));
+  result.typical_ink = recognition::measure_ink(outlines, ends, stored_ink(code, strokes));
 }
 
 /// True if the drawing clearly contradicts the label of a stroke imported as `id`.

@@ -24,8 +24,9 @@ namespace recognition {
 /// Leaves place, id and distance empty.
 StrokeMeasures measure_stroke(std::span<const Point> path, std::span<const Point> source, double half_width);
 
-/// Measures the ink of one character's strokes against their outlines.
-InkMeasures measure_ink(std::span<const Outline> outlines, std::span<const std::vector<InkDisc>> inks);
+/// Measures the ink of one character's strokes against their outlines. `ends`: of their medians.
+InkMeasures measure_ink(std::span<const Outline> outlines, std::span<const Point> ends,
+                        std::span<const std::vector<InkDisc>> inks);
 
 }  // namespace recognition
 }  // namespace calligraphy

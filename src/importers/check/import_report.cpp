@@ -48,8 +48,10 @@ class Counter {
 
  private:
   static void add(const InkMeasures& character, InkMeasures& sum) {
-    sum.strokes.insert(sum.strokes.end(), character.strokes.begin(), character.strokes.end());
-    sum.characters.insert(sum.characters.end(), character.characters.begin(), character.characters.end());
+    for (const auto values : {&InkMeasures::strokes, &InkMeasures::characters, &InkMeasures::uncovered,
+                              &InkMeasures::beyond, &InkMeasures::notches, &InkMeasures::source_notches}) {
+      (sum.*values).insert((sum.*values).end(), (character.*values).begin(), (character.*values).end());
+    }
     sum.contacts += character.contacts;
     sum.contacts_kept += character.contacts_kept;
     sum.apart += character.apart;

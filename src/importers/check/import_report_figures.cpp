@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include <calligraphy/model/set_encoding.hpp>
+#include <calligraphy/model/typical_stroke.hpp>
 
 namespace calligraphy {
 namespace {
@@ -19,10 +20,25 @@ double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
+double share_above(const std::vector<double>& values, double threshold) {
+  const auto count = std::count_if(values.begin(), values.end(), [&](double value) { return value > threshold; });
+  return static_cast<double>(count) / static_cast<double>(values.size());
+}
+
 InkFigures figures_of(const char* name, const char* key, const InkMeasures& ink, double bytes) {
   constexpr double low = 0.05;
-  return {name, key, &ink, bytes, mean_of(ink.strokes), quantile(ink.strokes, low), mean_of(ink.characters)};
+  return {name,
+          key,
+          &ink,
+          bytes,
+          mean_of(ink.strokes),
+          quantile(ink.strokes, low),
+          mean_of(ink.characters),
+          share_above(ink.uncovered, ink_off),
+          share_above(ink.beyond, ink_off)};
 }
+
+bool ends_in_hook(int id) { return typical_stroke(id).name.ends_with("钩"); }
 
 }  // namespace
 
@@ -79,6 +95,21 @@ std::vector<InkFigures> ink_figures(const ImportResult& import) {
       figures_of("8 half-widths", "half_widths", report.plain_ink, (plain - none) / count)};
   if (full != plain) {
     figures.push_back(figures_of("8 half-widths, 8 offsets", "full", report.ink, (full - none) / count));
+  }
+  return figures;
+}
+
+std::vector<NotchFigures> notch_figures(const ImportReport& report) {
+  std::vector<NotchFigures> figures;
+  for (int id = 1; id <= typical_stroke_count && !report.ink.strokes.empty(); ++id) {
+    int strokes = 0, of_ink = 0, of_source = 0;
+    for (std::size_t i = 0; i < report.measures.size(); ++i) {
+      if (report.measures[i].id != id || !ends_in_hook(id)) continue;
+      ++strokes;
+      of_ink += report.ink.notches[i] > notch_angle ? 1 : 0;
+      of_source += report.ink.source_notches[i] > notch_angle ? 1 : 0;
+    }
+    if (strokes > 0) figures.push_back({id, strokes, share_of(of_ink, strokes), share_of(of_source, strokes)});
   }
   return figures;
 }

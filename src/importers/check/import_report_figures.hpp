@@ -40,10 +40,26 @@ struct InkFigures {
   double mean;            ///< intersection over union, of the strokes [1]
   double low;             ///< the same, of the stroke that 5 % are worse than [1]
   double character_mean;  ///< the same, of whole characters [1]
+  double uncovered;       ///< share of strokes whose outline lies farther than `ink_off` from the ink [1]
+  double beyond;          ///< share of strokes whose ink lies farther than `ink_off` beyond the outline [1]
+};
+
+inline constexpr double ink_off = 0.02;      ///< [em]; what ink misses or adds beyond this shows
+inline constexpr double notch_angle = 35.0;  ///< [degree]; an edge that turns into the ink by more has a notch
+
+/// Of the strokes of one kind that end in a hook.
+struct NotchFigures {
+  int id;
+  int strokes;
+  double ink;     ///< share with a notch in the ink near the tip [1]
+  double source;  ///< the same of the outlines [1]
 };
 
 /// Typical ink, half-widths alone and, if the list has them, half-widths with offsets. Empty if nothing was imported
 /// with ink and a report.
 std::vector<InkFigures> ink_figures(const ImportResult& import);
+
+/// By id; of the ink as imported.
+std::vector<NotchFigures> notch_figures(const ImportReport& report);
 
 }  // namespace calligraphy

@@ -126,6 +126,14 @@ OrderedJson skipped_json(const ImportReport& report) {
   return rows;
 }
 
+OrderedJson hooks_json(const ImportReport& report) {
+  OrderedJson rows = OrderedJson::array();
+  for (const NotchFigures& hook : notch_figures(report)) {
+    rows.push_back({{"id", hook.id}, {"strokes", hook.strokes}, {"notches", hook.ink}, {"source_notches", hook.source}});
+  }
+  return rows;
+}
+
 }  // namespace
 
 OrderedJson ink_json(const ImportResult& import) {
@@ -139,7 +147,13 @@ OrderedJson ink_json(const ImportResult& import) {
                        {"contacts_kept", ink.measures->contacts_kept},
                        {"apart", ink.measures->apart},
                        {"new_contacts", ink.measures->new_contacts},
-                       {"iou", ink.measures->strokes}};
+                       {"uncovered_share", ink.uncovered},
+                       {"beyond_share", ink.beyond},
+                       {"iou", ink.measures->strokes},
+                       {"uncovered", ink.measures->uncovered},
+                       {"beyond", ink.measures->beyond},
+                       {"notches", ink.measures->notches},
+                       {"source_notches", ink.measures->source_notches}};
   }
   return result;
 }
@@ -153,6 +167,7 @@ OrderedJson report_json(const ImportResult& import, std::size_t bytes) {
     all["labels"] = label_json(report);
     if (!report.measures.empty()) all["measures"] = measures_json(report, bytes);
     if (!report.ink.strokes.empty()) all["ink"] = ink_json(import);
+    if (!report.ink.strokes.empty()) all["hooks"] = hooks_json(report);
   }
   all["ids_used"] = ids_json(report);
   const bool is_brush = report.kind != SourceKind::kanjivg && report.kind != SourceKind::calligraphy;
