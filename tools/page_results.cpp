@@ -71,25 +71,35 @@ void try_to_write(const std::string& name, const std::function<std::string()>& m
 void draw_page(const Recording& recording, const PageInRun& where, const PictureOptions& options, OutputDirectory& out,
                std::vector<std::string>& warnings) {
   const RecordingSetup& setup = *recording.setup;
+  const std::vector<CharacterScore> scores = score_page(setup.page, recording, options.tolerances);
   const char* const mode = setup.mode == FeedbackMode::vision ? "mode.vision_only" : "mode.vision_and_force";
+  const auto title = [&](const std::string& text) {
+    return fmt::format("{}, {}, {}", text, options.language.text(mode), setup.device.model);
+  };
+  const auto draw = [&](const std::string& name, const auto& picture) {
+    if (!options.is_stopped()) try_to_write(name, picture, out, warnings);
+  };
+  std::string text;
   for (std::size_t i = 0; i < setup.page.characters.size(); ++i) {
     const char32_t code = setup.page.characters[i].character.code;
     const auto index = static_cast<int>(i);
+    text += encode_utf8(code);
     const std::string stem =
         fmt::format("{:02}-{}-{}", where.first_position + index, name_in_file(code), to_string(setup.mode));
-    const std::string title =
-        fmt::format("{}, {}, {}", encode_utf8(code), options.language.text(mode), setup.device.model);
-    const auto draw = [&](const std::string& name, const auto& picture) {
-      if (!options.is_stopped()) try_to_write(name, picture, out, warnings);
-    };
-    draw(stem + ".svg",
-         [&] { return page_picture(setup.page, recording, index, title, options.style, options.language); });
+    const std::string heading = title(encode_utf8(code));
+    draw(stem + "-writing.svg", [&] {
+      return character_picture(setup.page, recording, scores, index, heading, options.style, options.language);
+    });
     const bool was_reached = std::any_of(recording.samples.begin(), recording.samples.end(),
                                          [index](const RecordedSample& sample) { return sample.character == index; });
     const bool has_force = was_reached && setup.mode == FeedbackMode::force;  // otherwise the page was aborted before
     if (!options.has_plots || !has_force) continue;
-    draw(stem + "-force.svg", [&] { return force_plot(recording, index, title, options.language); });
+    draw(stem + "-plot.svg", [&] { return force_plot(recording, index, heading, options.language); });
   }
+  if (setup.page.characters.size() < 2) return;
+  draw(fmt::format("page-{}-{}-writing.svg", where.page, to_string(setup.mode)), [&] {
+    return page_picture(setup.page, recording, scores, title(text), options.style, options.language);
+  });
 }
 
 bool can_plot(std::vector<std::string>& warnings) {

@@ -19,6 +19,7 @@ namespace calligraphy::tools {
 
 /// Where a page belongs in a run.
 struct PageInRun {
+  int page = 1;            ///< its number, from 1
   int first_position = 1;  ///< of its first character in the text, from 1
   int repetition = 1;      ///< from 1
   std::optional<std::uint64_t> seed = {};  ///< of a simulated writer, if it is known
@@ -35,10 +36,12 @@ struct PictureOptions {
   Language language;
   bool has_plots = true;  ///< of the forces, too
   std::function<bool()> is_stopped = [] { return false; };  ///< asked before each picture
+  JudgeTolerances tolerances = {};                          ///< of the remarks on the writing
 };
 
-/// Draws a picture of each character of a page and, with force, a force plot: "03-北-force.svg",
-/// "03-北-force-force.svg". One that fails is told and added to `warnings`.
+/// Draws what was written of each character of a page and, with force, a plot of the forces: "03-北-force-writing.svg",
+/// "03-北-force-plot.svg"; and of several characters the whole page: "page-1-force-writing.svg". One that fails is told
+/// and added to `warnings`.
 void draw_page(const Recording& recording, const PageInRun& where, const PictureOptions& options, OutputDirectory& out,
                std::vector<std::string>& warnings);
 

@@ -66,10 +66,11 @@ void replay_recordings(const RecordingReplay& replay) {
     }
   }
   Summary summary;
-  PictureOptions pictures = {replay.style, replay.language, false, [&interrupt] { return interrupt.asked(); }};
+  PictureOptions pictures = {replay.style, replay.language, false, [&interrupt] { return interrupt.asked(); },
+                             replay.tolerances};
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   std::string descriptions;
-  std::map<std::pair<int, std::uint32_t>, int> positions;  // of the first character of each page, by number or id
+  std::map<std::pair<int, std::uint32_t>, PageInRun> pages;  // by number or id
   int next_position = 1, changed = 0, damaged = 0;
   Progress progress;
   for (std::size_t i = 0; i < replay.files.size(); ++i) {
@@ -91,9 +92,11 @@ void replay_recordings(const RecordingReplay& replay) {
     const Recording& recording = stored.recording;
     const PlaceInRun place = place_in_run(file);
     const std::pair<int, std::uint32_t> page = {place.page, place.page > 0 ? 0 : recording.page};
-    const auto [position, is_new] = positions.try_emplace(page, next_position);
+    const int number = place.page > 0 ? place.page : static_cast<int>(pages.size()) + 1;
+    const auto [known, is_new] = pages.try_emplace(page, PageInRun{number, next_position, 1, {}});
     if (is_new) next_position += static_cast<int>(recording.setup->page.characters.size());
-    PageInRun where = {position->second, std::max(place.repetition, 1), {}};
+    PageInRun where = known->second;
+    where.repetition = std::max(place.repetition, 1);
     summary.repetitions = std::max(summary.repetitions, where.repetition);
     descriptions += description(file, stored) + "\n";
     list.push_back(json_of(file, stored));

@@ -276,7 +276,7 @@ class WriteRun {
     session_.keep = [&](const Recording& recording) {
       if (is_kept) kept.take(recording);
     };
-    const PageInRun where = {sheet.first_position, repetition, session_.seed};
+    const PageInRun where = {static_cast<int>(number) + 1, sheet.first_position, repetition, session_.seed};
     const Recording recording = [&] {
       try {
         return pen_.write(sheet.page, session_);
@@ -299,7 +299,7 @@ class WriteRun {
   void draw(OutputDirectory& out) {
     const bool was_stopped = pen_.interrupted();  // what was written until then is drawn
     const PictureOptions options = {options_.style, options_.language, !drawn_.empty() && can_plot(summary_.warnings),
-                                    [&] { return !was_stopped && pen_.interrupted(); }};
+                                    [&] { return !was_stopped && pen_.interrupted(); }, {}};
     for (const auto& [name, where] : drawn_) {
       draw_page(open_recording(out.reserve(name)).recording, where, options, out, summary_.warnings);
     }
@@ -339,8 +339,8 @@ void add_write(CLI::App& program) {
                              "Write a text, without and with force. It is written by a simulated writer on a simulated "
                              "device, or by a person on a real one, where space, Esc and Ctrl-C take the force away at "
                              "once and stop. DIR receives summary.json, which explains the run, strokes.csv, a recording "
-                             "of each page and mode, which `replay` reads, and per character and mode a picture and a "
-                             "force plot.");
+                             "of each page and mode, which `replay` reads, and pictures: of what was written, for each "
+                             "character, mode and page, and of the forces over time.");
   command->footer(
       "calligraphy write 永和 -o out                       # without and with force\n"
       "calligraphy write ㇏㇇ -o two                       # strokes; also \"6 17\"\n"

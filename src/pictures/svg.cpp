@@ -65,6 +65,26 @@ double text_width(std::string_view text, double size) {
   return width * size;
 }
 
+std::vector<std::string> wrapped(std::string_view text, double size, double width) {
+  std::vector<std::string> words;  // each with the blanks after it
+  char32_t before = U' ';
+  for (const char32_t code : decode_utf8(text)) {
+    const bool is_punctuation = (0x3001 <= code && code <= 0x3011) || 0xff00 <= code;  // never begins a line
+    const bool begins = (before == U' ' && code != U' ') || (code >= 0x2e80 && !is_punctuation) ||
+                        (before >= 0x2e80 && code < 0x2e80 && code != U' ');
+    if (begins || words.empty()) words.emplace_back();
+    words.back() += encode_utf8(code);
+    before = code;
+  }
+  std::vector<std::string> lines = {""};
+  for (const std::string& word : words) {
+    const std::size_t shown = word.find_last_not_of(' ') + 1;
+    if (!lines.back().empty() && text_width(lines.back() + word.substr(0, shown), size) > width) lines.emplace_back();
+    lines.back() += word;
+  }
+  return lines;
+}
+
 std::vector<Point> View::operator()(std::span<const Point> points) const {
   std::vector<Point> result;
   for (const Point& point : points) result.push_back((*this)(point));

@@ -39,6 +39,9 @@ pugi::xml_node add_circle(pugi::xml_node parent, const char* name, const Point& 
 /// Approximate width of the text in a sans-serif font.
 double text_width(std::string_view text, double size);
 
+/// The text in lines no wider than this, broken at blanks and beside Chinese characters.
+std::vector<std::string> wrapped(std::string_view text, double size, double width);
+
 /// Maps the coordinates of a model to those of the picture, y down.
 struct View {
   Point origin = Point::Zero();  ///< where the model's origin is in the picture

@@ -1,6 +1,9 @@
 #include "pen_down.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <utility>
 
 namespace calligraphy {
 namespace {
@@ -8,6 +11,25 @@ namespace {
 constexpr double max_bounce = 0.05;  // nobody lifts a pen and lowers it again within half a period of 10 Hz [s]
 constexpr double rounding = 1e-6;    // of times [s]
 constexpr double max_lost = 0.1;     // or lifts it and lowers it at the next stroke within this time [s]
+
+/// The index of its character.
+std::size_t character_of(const PenDown& down, const PracticePage& page) {
+  Point middle = Point::Zero();
+  for (const TimedPoint& sample : down.samples) middle += sample.point / static_cast<double>(down.samples.size());
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < page.characters.size(); ++i) {
+    const Placement& placement = page.characters[i].placement;
+    const Eigen::AlignedBox2d square(placement.origin, placement.origin + Point::Constant(placement.em));
+    const double distance = square.exteriorDistance(middle);
+    const bool is_active = static_cast<int>(i) == down.character;
+    if (distance < least || (distance == least && is_active)) {
+      least = distance;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
 
 }  // namespace
 
@@ -25,15 +47,22 @@ std::vector<PenDown> pen_downs(const Recording& recording) {
       const double longest = was_on_paper ? max_lost : max_bounce;
       const bool continues = !result.empty() && ((was_on_paper && !was_lost) ||
                                                  sample.time <= result.back().samples.back().time + longest + rounding);
-      if (!continues) result.push_back({sample.character, {}, 0.0, true});
+      if (!continues) result.push_back({sample.character, {}, 0.0, false, true});
       result.back().pressed += std::max(0.0, sample.force.z());
       result.back().samples.push_back({sample.pen_tip.head<2>(), sample.time});
     }
+    if (has_event(sample.events, TickEvent::stroke_finished) && !result.empty()) result.back().finished_stroke = true;
     was_on_paper = on_paper;
     was_lost = false;
   }
   if (was_on_paper) result.back().lifted = false;
   return result;
+}
+
+std::vector<std::vector<PenDown>> pen_downs_by_character(const PracticePage& page, const Recording& recording) {
+  std::vector<std::vector<PenDown>> own(page.characters.size());
+  for (PenDown& down : pen_downs(recording)) own[character_of(down, page)].push_back(std::move(down));
+  return own;
 }
 
 std::vector<PenPath> pen_paths(const Recording& recording, const Placement& placement) {

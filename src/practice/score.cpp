@@ -112,18 +112,18 @@ struct Written {
   PathError error;  ///< error of these points
 };
 
-double mean_pressure(std::span<const PenDown* const> downs) {
+double mean_pressure(std::span<const PenDown> downs) {
   double sum = 0.0, count = 0.0;
-  for (const PenDown* down : downs) {
-    sum += down->pressed;
-    count += static_cast<double>(down->samples.size());
+  for (const PenDown& down : downs) {
+    sum += down.pressed;
+    count += static_cast<double>(down.samples.size());
   }
   return sum > 0.0 ? sum / count : not_measured;
 }
 
 class CharacterScorer {
  public:
-  CharacterScorer(const PlacedCharacter& placed, std::vector<const PenDown*> downs, const JudgeTolerances& tolerances)
+  CharacterScorer(const PlacedCharacter& placed, std::vector<PenDown> downs, const JudgeTolerances& tolerances)
       : placement_(placed.placement), downs_(std::move(downs)) {
     for (const Stroke& stroke : strokes(placed.character)) templates_.emplace_back(stroke, placement_);
     result_.character = placed.character.code;
@@ -132,15 +132,15 @@ class CharacterScorer {
     std::vector<PenPath> paths;
     const double least = detail::judge_constants.pen_spacing;
     const double spacing = std::max(least, std::min(sensor_noise / placement_.em, 4.0 * least)) * placement_.em;
-    for (const PenDown* down : downs_) {
+    for (const PenDown& down : downs_) {
       std::vector<Point> all;
-      for (const TimedPoint& sample : down->samples) all.push_back(sample.point);
+      for (const TimedPoint& sample : down.samples) all.push_back(sample.point);
       paths_.push_back(without_jitter(all, spacing));
       PenPath& path = paths.emplace_back();
       for (const Point& point : paths_.back()) path.push_back((point - placement_.origin) / placement_.em);
-      result_.pen_downs.push_back({pen_kinematics(down->samples), mean_pressure({&down, 1})});
+      result_.pen_downs.push_back({pen_kinematics(down.samples), mean_pressure({&down, 1})});
     }
-    const bool is_finished = paths.empty() || (downs_.back()->lifted && paths.size() >= templates_.size());
+    const bool is_finished = paths.empty() || (downs_.back().lifted && paths.size() >= templates_.size());
     result_.match = is_finished ? match_strokes(placed.character, paths, tolerances)
                                 : match_unfinished(placed.character, paths, tolerances);
   }
@@ -309,31 +309,12 @@ class CharacterScorer {
   }
 
   const Placement placement_;
-  const std::vector<const PenDown*> downs_;
+  const std::vector<PenDown> downs_;
   std::vector<Template> templates_;
   std::vector<std::vector<Point>> paths_;  ///< points of the pen-downs [m]
   CharacterScore result_;
   std::vector<Written> written_;  ///< of each stroke
 };
-
-/// The character in whose square the pen-down lies, or the nearest; if there are several, the one that was active.
-std::size_t character_of(const PenDown& down, const PracticePage& page) {
-  Point middle = Point::Zero();
-  for (const TimedPoint& sample : down.samples) middle += sample.point / static_cast<double>(down.samples.size());
-  std::size_t nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < page.characters.size(); ++i) {
-    const Placement& placement = page.characters[i].placement;
-    const Eigen::AlignedBox2d square(placement.origin, placement.origin + Point::Constant(placement.em));
-    const double distance = square.exteriorDistance(middle);
-    const bool is_active = static_cast<int>(i) == down.character;
-    if (distance < least || (distance == least && is_active)) {
-      least = distance;
-      nearest = i;
-    }
-  }
-  return nearest;
-}
 
 /// Adds what the session recorded of each character: strokes finished, time and force.
 void add_session(const Recording& recording, const PracticePage& page, std::vector<CharacterScore>& scores) {
@@ -371,9 +352,7 @@ std::vector<CharacterScore> score_page(const PracticePage& page, const Recording
   if (page.characters.empty()) return {};
   validate(page.characters);
   require_same_page(page, recording);
-  const std::vector<PenDown> downs = pen_downs(recording);
-  std::vector<std::vector<const PenDown*>> own(page.characters.size());
-  for (const PenDown& down : downs) own[character_of(down, page)].push_back(&down);
+  std::vector<std::vector<PenDown>> own = pen_downs_by_character(page, recording);
   std::vector<CharacterScore> scores;
   for (std::size_t i = 0; i < own.size(); ++i) {
     scores.push_back(CharacterScorer(page.characters[i], std::move(own[i]), tolerances).run());

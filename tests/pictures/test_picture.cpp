@@ -3,11 +3,14 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <pugixml.hpp>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/judge/remark_text.hpp>
 #include <calligraphy/model/ink_outline.hpp>
 #include <calligraphy/model/stroke_polyline.hpp>
 #include <calligraphy/model/typical_ink.hpp>
@@ -36,10 +39,6 @@ std::vector<pugi::xml_node> all(const pugi::xml_document& document, const std::s
   std::vector<pugi::xml_node> nodes;
   for (const auto& found : document.select_nodes(path.c_str())) nodes.push_back(found.node());
   return nodes;
-}
-
-std::vector<pugi::xml_node> templates(const pugi::xml_document& document) {
-  return all(document, "//g[starts-with(@class, 'template')]");
 }
 
 std::size_t paths(const pugi::xml_node& node) {
@@ -87,7 +86,7 @@ double distance(const std::vector<Point>& line, const Point& from) {
   return nearest;
 }
 
-/// Corner of the page in the picture [mm].
+/// Corner of the page in its picture [mm].
 Point lower_left(const pugi::xml_document& document) {
   const pugi::xml_node frame = all(document, "//rect[@class='page']").at(0);
   return {frame.attribute("x").as_double(), frame.attribute("y").as_double() + frame.attribute("height").as_double()};
@@ -97,77 +96,323 @@ Point in_picture(const pugi::xml_document& document, const Point& page_point) {
   return lower_left(document) + 1e3 * Point(page_point.x(), -page_point.y());
 }
 
-Point ellipse_centre(const pugi::xml_document& document) {
-  const auto ellipses = all(document, "//ellipse[@class='start']");
-  REQUIRE(ellipses.size() == 1);
-  CHECK(std::string(ellipses[0].attribute("stroke").value()) == "#e02020");
-  CHECK(std::string(ellipses[0].attribute("fill").value()) == "none");
-  return {ellipses[0].attribute("cx").as_double(), ellipses[0].attribute("cy").as_double()};
+std::string text_of(const std::vector<pugi::xml_node>& nodes, const char* between = "|") {
+  std::string text;
+  for (const auto& node : nodes) text += (text.empty() ? "" : between) + std::string(node.text().get());
+  return text;
 }
 
-Point start_of(const PlacedCharacter& placed, std::size_t stroke) {
-  return placed.placement.to_page(strokes(placed.character)[stroke].control_points[0]);
-}
-
-RecordedSample sample(InteractionState state, int character, int stroke, const Point& tip,
-                      TickEvent events = TickEvent::none) {
-  RecordedSample result;
-  result.state = state;
-  result.character = character;
-  result.stroke = stroke;
-  result.pen_tip = {tip.x(), tip.y(), 0.0};
-  result.events = events;
-  return result;
-}
-
-constexpr auto ws = InteractionState::writing;
-constexpr auto cs = InteractionState::calibration;
-constexpr auto ss = InteractionState::separation;
-
-/// A polyline in the writing state, except for its last point, which leaves it.
-void append_run(Recording& recording, int character, int stroke, const std::vector<Point>& tips, TickEvent end) {
-  for (std::size_t i = 0; i + 1 < tips.size(); ++i) {
-    recording.samples.push_back(sample(ws, character, stroke, tips[i]));
+/// Relative luminance of "#rrggbb" as W3C defines it, 0 to 1, which is what is left of a colour in black and white.
+double luminance(const std::string& colour) {
+  REQUIRE(colour.size() == 7);
+  const double weights[] = {0.2126, 0.7152, 0.0722};
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double value = std::stoi(colour.substr(1 + 2 * i, 2), nullptr, 16) / 255.0;
+    sum += weights[i] * (value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
   }
-  const bool finished = has_event(end, TickEvent::stroke_finished);
-  recording.samples.push_back(sample(finished ? cs : ss, character, finished ? stroke + 1 : stroke, tips.back(), end));
+  return sum;
 }
 
-const std::vector<Point> corner = {{0.05, 0.05}, {0.06, 0.05}, {0.06, 0.06}};
+double contrast(const std::string& light, const std::string& dark) {
+  return (luminance(light) + 0.05) / (luminance(dark) + 0.05);
+}
+
+PenPath middle_of(const PlacedCharacter& placed, std::size_t stroke) {
+  return stroke_polyline(strokes(placed.character)[stroke]);
+}
+
+PenPath backwards(PenPath path) {
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+/// Writes on a page, pen-down by pen-down.
+class Hand {
+ public:
+  explicit Hand(const PracticePage& page) : page_(page) {}
+
+  /// A pen-down [em], which the session counts as the stroke that is due, or not.
+  void draw(const PenPath& path, bool counts, bool lifts = true) {
+    const Placement& placement = page_.characters[static_cast<std::size_t>(character_)].placement;
+    for (const Point& point : path) add(InteractionState::writing, placement.to_page(point));
+    if (counts) {
+      const bool is_last = ++stroke_ == page_.characters[static_cast<std::size_t>(character_)].character.stroke_count();
+      recording.samples.back().events = TickEvent::stroke_finished;
+      recording.samples.back().stroke = stroke_;
+      if (is_last && lifts) std::tie(character_, stroke_) = std::pair(character_ + 1, 0);
+    }
+    if (!lifts) return;
+    time_ += 0.3;
+    add(InteractionState::separation, placement.to_page(path.back()));
+    time_ += 0.3;
+  }
+  void write(std::initializer_list<std::size_t> strokes) {
+    for (const std::size_t stroke : strokes) {
+      draw(middle_of(page_.characters[static_cast<std::size_t>(character_)], stroke), true);
+    }
+  }
+  std::vector<CharacterScore> scores() const { return score_page(page_, recording); }
+  pugi::xml_document picture(int index = 0, StrokeStyle style = StrokeStyle::ink, const Language& language = {}) const {
+    return xml(character_picture(page_, recording, scores(), index, "title", style, language));
+  }
+  pugi::xml_document page_picture(StrokeStyle style = StrokeStyle::ink) const {
+    return xml(calligraphy::page_picture(page_, recording, scores(), "title", style));
+  }
+
+  Recording recording;
+
+ private:
+  void add(InteractionState state, const Point& tip) {
+    RecordedSample& sample = recording.samples.emplace_back();
+    sample.time = time_ += 1e-3;
+    sample.state = state;
+    sample.character = character_;
+    sample.stroke = stroke_;
+    sample.pen_tip = {tip.x(), tip.y(), 0.0};
+  }
+
+  const PracticePage& page_;
+  int character_ = 0, stroke_ = 0;
+  double time_ = 0.0;
+};
+
+/// The lines of a group, without the heads of arrows.
+std::vector<pugi::xml_node> lines_of(const pugi::xml_document& document, const std::string& group) {
+  return all(document, "//g[@class='" + group + "']/path[@stroke!='none']");
+}
+
+/// Scores without remarks, of so many pen-downs of each character.
+std::vector<CharacterScore> plain_scores(const PracticePage& page, std::size_t pen_downs) {
+  std::vector<CharacterScore> scores(page.characters.size());
+  for (CharacterScore& score : scores) score.match.drawn.resize(pen_downs);
+  return scores;
+}
+
+const char* const red = "#e02020";
 
 }  // namespace
 
-TEST_CASE("a page picture has one path per stroke of every character", "[practice]") {
+TEST_CASE("the picture of a character shows it alone, and its square as large as the picture", "[practice]") {
+  const PracticePage page = page_of("永北");
+  const auto document = Hand(page).picture(1, StrokeStyle::lines);
+  CHECK(std::string(document.child("svg").attribute("width").value()) == "112mm");
+  const auto squares = all(document, "//g[@class='square']/rect");
+  REQUIRE(squares.size() == 1);
+  const double em = squares[0].attribute("width").as_double();
+  CHECK(em > 88.0);
+  const Point corner(squares[0].attribute("x").as_double(), squares[0].attribute("y").as_double() + em);
+  std::vector<Point> drawn;
+  for (const auto& path : all(document, "//g[@class='template']/path")) {
+    const auto some = points(path);
+    drawn.insert(drawn.end(), some.begin(), some.end());
+  }
+  const auto& expected = page.characters[1].character.structure.control_points;
+  REQUIRE(drawn.size() == expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    CHECK((drawn[k] - corner - em * Point(expected[k].x(), -expected[k].y())).norm() < 0.002);
+  }
+}
+
+TEST_CASE("the picture of a page is life-size and has every character", "[practice]") {
   const PracticePage page = page_of("永北京");
-  const auto document = xml(page_picture(page, {}, 0, "title"));
-  const auto groups = templates(document);
-  REQUIRE(groups.size() == page.characters.size());
+  Hand hand(page);
+  hand.write({0, 1, 2, 3, 4});
+  hand.write({0, 1});
+  const auto document = hand.page_picture();
+  const auto frame = all(document, "//rect[@class='page']").at(0);
+  CHECK(frame.attribute("width").as_double() == Approx(1e3 * page.width));
+  const auto groups = all(document, "//g[@class='template']");
+  REQUIRE(groups.size() == 3);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     CHECK(paths(groups[i]) == static_cast<std::size_t>(page.characters[i].character.stroke_count()));
   }
-  CHECK(all(document, "//g[@class='trace']").empty());
+  const auto traces = lines_of(document, "trace");
+  REQUIRE(traces.size() == 7);
+  const Point start = page.characters[1].placement.to_page(middle_of(page.characters[1], 1).front());
+  CHECK((points(traces[6]).front() - in_picture(document, start)).norm() < 0.002);
 }
 
-TEST_CASE("only the active character is yellow, the others are blue", "[practice]") {
-  const PracticePage page = page_of("永北京");
-  for (int active = 0; active < 3; ++active) {
-    const auto document = xml(page_picture(page, {}, active, "title"));
-    const auto groups = templates(document);
-    REQUIRE(groups.size() == 3);
-    for (int i = 0; i < 3; ++i) {
-      const auto& group = groups[static_cast<std::size_t>(i)];
-      CHECK(std::string(group.attribute("fill").value()) == (i == active ? "#f2b705" : "#5b8ff0"));
+TEST_CASE("template and trace are told apart without colour, and the template from the paper", "[practice]") {
+  const PracticePage page = page_of("永");
+  Hand hand(page);
+  hand.write({0, 1, 2, 3, 4});
+  for (const auto& [style, paint] : {std::pair{StrokeStyle::ink, "fill"}, {StrokeStyle::lines, "stroke"}}) {
+    const auto document = hand.picture(0, style);
+    const std::string pale = all(document, "//g[@class='template']").at(0).attribute(paint).value();
+    CHECK(contrast("#ffffff", pale) > 1.3);
+    const auto traces = lines_of(document, "trace");
+    REQUIRE(traces.size() == 5);
+    for (const auto& trace : traces) CHECK(contrast(pale, trace.attribute("stroke").value()) > 4.5);
+  }
+}
+
+TEST_CASE("each pen-down has a number in writing order at its start, and an arrow along it", "[practice]") {
+  const PracticePage page = page_of("永");
+  Hand hand(page);
+  hand.write({0, 1, 2, 3, 4});
+  const auto document = hand.picture();
+  const auto traces = lines_of(document, "trace");
+  const auto heads = all(document, "//g[@class='trace']/path[@stroke='none']");
+  const auto numbers = all(document, "//g[@class='drawn-number']/text");
+  CHECK(text_of(numbers) == "1|2|3|4|5");
+  REQUIRE(traces.size() == 5);
+  REQUIRE(heads.size() == 5);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const std::vector<Point> line = points(traces[i]), head = points(heads[i]);
+    const Point at(numbers[i].attribute("x").as_double(), numbers[i].attribute("y").as_double());
+    CHECK((at - line.front()).norm() < 8.0);  // [mm]
+    const Point tip = head[0], back = 0.5 * (head[1] + head[2]);
+    CHECK(distance(line, tip) < 0.5);
+    const auto share = [&line](const Point& point) {
+      std::size_t nearest = 0;
+      for (std::size_t k = 0; k < line.size(); ++k) {
+        if ((line[k] - point).norm() < (line[nearest] - point).norm()) nearest = k;
+      }
+      return nearest;
+    };
+    CHECK(share(back - 10.0 * (tip - back)) <= share(tip + 2.0 * (tip - back)));
+    CHECK((tip - back).norm() > 2.0);
+  }
+  CHECK(all(document, "//g[@class='standard-number']").empty());
+}
+
+TEST_CASE("an attempt that did not count is faint and dashed, and then strokes have numbers of their own", "[practice]") {
+  const PracticePage page = page_of("十");
+  Hand hand(page);
+  hand.draw(middle_of(page.characters[0], 1), false);
+  hand.write({0, 1});
+  const auto document = hand.picture();
+  CHECK(lines_of(document, "trace").size() == 2);
+  CHECK(lines_of(document, "attempt").size() == 1);
+  const auto group = all(document, "//g[@class='attempt']").at(0);
+  CHECK_FALSE(group.attribute("stroke-dasharray").empty());
+  CHECK(group.attribute("opacity").as_double() < 1.0);
+  CHECK(text_of(all(document, "//g[@class='drawn-number']/text")) == "1|2|3");
+  CHECK(text_of(all(document, "//g[@class='standard-number']/text")) == "1|2");
+}
+
+TEST_CASE("mistakes are red where they are", "[practice]") {
+  const PracticePage page = page_of("三");
+  const auto colour = [](const pugi::xml_document& document, const char* group, std::size_t line) {
+    return std::string(lines_of(document, group).at(line).attribute("stroke").value());
+  };
+  Hand early(page);
+  early.draw(middle_of(page.characters[0], 2), false);
+  early.write({0, 1});
+  CHECK(colour(early.picture(), "attempt", 0) == red);
+  CHECK(colour(early.picture(), "trace", 0) == "#333333");
+
+  Hand reversed(page);
+  reversed.write({0, 1});
+  reversed.draw(backwards(middle_of(page.characters[0], 2)), true);
+  CHECK(colour(reversed.picture(), "trace", 2) == red);
+
+  Hand missing(page);
+  missing.write({0});
+  missing.draw(middle_of(page.characters[0], 2), false);
+  missing.draw({{0.2, 0.95}, {0.25, 0.8}, {0.2, 0.99}}, false);
+  const auto gap = missing.picture();
+  const auto strokes_of = all(gap, "//g[@class='template']/path");
+  CHECK(strokes_of.at(0).attribute("fill").empty());
+  CHECK(std::string(strokes_of.at(1).attribute("fill").value()) == "#f8cccc");
+  CHECK(std::string(all(gap, "//g[@class='standard-number']/text").at(1).attribute("fill").value()) == red);
+  CHECK(colour(gap, "attempt", 1) == red);
+}
+
+TEST_CASE("a ring is at the start of the stroke that is due until the character is complete", "[practice]") {
+  const PracticePage page = page_of("十永");
+  const auto due = [&page](const Hand& hand, int index) {
+    const auto document = hand.page_picture();
+    const auto rings = all(hand.picture(index), "//*[@class='start']");
+    const auto on_page = all(document, "//*[@class='start']");
+    if (rings.empty()) return -1;
+    REQUIRE(on_page.size() == 1);
+    const Point centre(on_page[0].attribute("cx").as_double(), on_page[0].attribute("cy").as_double());
+    const PlacedCharacter& placed = page.characters[static_cast<std::size_t>(index)];
+    for (int stroke = 0; stroke < placed.character.stroke_count(); ++stroke) {
+      const Point start = middle_of(placed, static_cast<std::size_t>(stroke)).front();
+      if ((centre - in_picture(document, placed.placement.to_page(start))).norm() < 0.002) return stroke;
     }
+    return -2;
+  };
+  Hand hand(page);
+  CHECK(due(hand, 0) == 0);
+  CHECK(due(hand, 1) == -1);
+  hand.write({0});
+  CHECK(due(hand, 0) == 1);
+  Hand resting = hand;  // complete, with the pen still down
+  resting.draw(middle_of(page.characters[0], 1), true, false);
+  CHECK(due(resting, 0) == -1);
+  hand.write({1});
+  hand.write({0, 1, 2});
+  CHECK(due(hand, 0) == -1);
+  CHECK(due(hand, 1) == 3);
+  hand.write({3, 4});
+  CHECK(all(hand.page_picture(), "//*[@class='start']").empty());
+}
+
+TEST_CASE("a stroke in progress is drawn like one that counts", "[practice]") {
+  const PracticePage page = page_of("永");
+  Hand hand(page);
+  hand.write({0});
+  hand.draw(middle_of(page.characters[0], 1), false, false);
+  CHECK(lines_of(hand.picture(), "trace").size() == 2);
+  CHECK(lines_of(hand.picture(), "attempt").empty());
+}
+
+TEST_CASE("where nothing was written, nothing is marked as missing", "[practice]") {
+  const PracticePage page = page_of("永北");
+  const auto document = Hand(page).picture(1);
+  CHECK(all(document, "//*[@fill='#f8cccc' or @stroke='#f8cccc' or @fill='#e02020']").empty());
+  CHECK(all(document, "//g[@class='remarks']/text").empty());
+}
+
+TEST_CASE("the legend names what is in the picture, in the language asked for", "[practice]") {
+  const PracticePage page = page_of("十");
+  const auto legend = [](const pugi::xml_document& document) {
+    return text_of(all(document, "//g[@class='legend']/text"));
+  };
+  Hand hand(page);
+  CHECK(legend(hand.picture()) == "template|start of the stroke that is due");
+  Hand wrong = hand;
+  hand.write({0, 1});
+  CHECK(legend(hand.picture()) == "template|as written, numbered in order");
+  CHECK(legend(hand.picture(0, StrokeStyle::ink, Language("zh"))) == "范字|所写的笔画，按先后编号");
+  wrong.draw(backwards(middle_of(page.characters[0], 0)), false);
+  wrong.write({0, 1});
+  CHECK(legend(wrong.picture()) ==
+        "template|as written, numbered in order|out of order, backwards or extra|attempt that did not count|"
+        "correct order|1 2");
+}
+
+TEST_CASE("all remarks are below, in lines that are no wider than the picture", "[practice]") {
+  const PracticePage page = page_of("十");
+  Hand hand(page);
+  hand.draw(backwards(middle_of(page.characters[0], 0)), false);
+  hand.write({0, 1});
+  const MatchResult match = hand.scores().at(0).match;
+  for (const Language& language : languages()) {
+    std::string expected, written;
+    for (const StrokeRemark& remark : match.remarks) expected += remark_text(remark, match.character, language);
+    REQUIRE_FALSE(expected.empty());
+    const auto document = hand.picture(0, StrokeStyle::ink, language);
+    for (const auto& node : all(document, "//g[@class='remarks']/text")) {
+      const std::string line = node.text().get();
+      CHECK(decode_utf8(line).size() <= (language.code() == "zh" ? 31 : 53));
+      written += line;
+    }
+    CHECK(written == expected);
   }
 }
 
 TEST_CASE("a template is filled from the middle of every stroke to its edge, and no further", "[practice]") {
   const PracticePage page = page_of("永北京航空");
-  const std::string svg = page_picture(page, {}, 0, "title");
+  const std::string svg = page_picture(page, {}, plain_scores(page, 0), "title");
   CHECK(svg.find("nan") == std::string::npos);
   CHECK(svg.find("inf") == std::string::npos);
   const auto document = xml(svg);
-  const auto groups = templates(document);
+  const auto groups = all(document, "//g[@class='template']");
   REQUIRE(groups.size() == page.characters.size());
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const Character character = with_typical_ink(page.characters[i].character);
@@ -199,8 +444,8 @@ TEST_CASE("the ink of a character takes the place of the typical one", "[practic
   StrokeInk ink;
   ink.half_widths.fill(0.1);
   page.characters[0].character.physics.ink = {ink};
-  const auto document = xml(page_picture(page, {}, 0, "title"));
-  const auto path = all(document, "//g[@class='template active']/path").at(0);
+  const auto document = xml(page_picture(page, {}, plain_scores(page, 0), "title"));
+  const auto path = all(document, "//g[@class='template']/path").at(0);
   const Stroke stroke = strokes(page.characters[0].character)[0];
   const Point middle = 0.5 * (stroke.control_points.front() + stroke.control_points.back());
   const auto place = [&](double above) {
@@ -211,56 +456,14 @@ TEST_CASE("the ink of a character takes the place of the typical one", "[practic
   CHECK_FALSE(is_filled(path, place(0.11)));
 }
 
-TEST_CASE("as lines, strokes are lines of one width and nothing is filled", "[practice]") {
-  const PracticePage page = page_of("永北");
-  Recording recording;
-  append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
-  const auto document = xml(page_picture(page, recording, 1, "title", StrokeStyle::lines));
-  const auto groups = templates(document);
-  REQUIRE(groups.size() == 2);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const double em = 1e3 * page.characters[i].placement.em;
-    CHECK(std::string(groups[i].attribute("fill").value()) == "none");
-    CHECK(std::string(groups[i].attribute("stroke").value()) == (i == 1 ? "#f2b705" : "#5b8ff0"));
-    CHECK(groups[i].attribute("stroke-width").as_double() == Approx(0.07 * em).epsilon(1e-3));
-  }
-  const auto trace = all(document, "//g[@class='trace']/path").at(0);
-  CHECK(std::string(trace.attribute("fill").value()) == "none");
-  CHECK(std::string(trace.attribute("stroke").value()) == "#5fce5f");
-}
-
-TEST_CASE("as lines, templates are the strokes' control points on the page, in millimetres and upright", "[practice]") {
-  const PracticePage page = page_of("永北");
-  const auto document = xml(page_picture(page, {}, 0, "title", StrokeStyle::lines));
-  const auto groups = templates(document);
-  REQUIRE(groups.size() == 2);
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    std::vector<Point> drawn;
-    for (const auto& path : groups[i].children("path")) {
-      const auto some = points(path);
-      drawn.insert(drawn.end(), some.begin(), some.end());
-    }
-    const auto& expected = page.characters[i].character.structure.control_points;
-    REQUIRE(drawn.size() == expected.size());
-    for (std::size_t k = 0; k < expected.size(); ++k) {
-      const Point place = in_picture(document, page.characters[i].placement.to_page(expected[k]));
-      CHECK((drawn[k] - place).norm() < 0.001);
-    }
-  }
-  const pugi::xml_node root = document.child("svg");
-  CHECK(std::string(root.attribute("width").value()).ends_with("mm"));
-  CHECK(root.attribute("viewBox").value() == "0 0 " + std::to_string(root.attribute("width").as_int()) + " " +
-                                                 std::to_string(root.attribute("height").as_int()));
-}
-
 TEST_CASE("as lines, quartic curves are drawn like the equal cubic curves", "[practice]") {
   for (const Character& character : built_in_characters().characters) {
     PracticePage page = lay_out({&character, 1}).front();
-    const auto cubic = xml(page_picture(page, {}, 0, "title", StrokeStyle::lines));
+    const auto cubic = xml(page_picture(page, {}, plain_scores(page, 0), "title", StrokeStyle::lines));
     page.characters[0].character = with_quartic_curves(character);
-    const auto quartic = xml(page_picture(page, {}, 0, "title", StrokeStyle::lines));
-    const auto cubic_paths = all(cubic, "//g[@class='template active']/path");
-    const auto quartic_paths = all(quartic, "//g[@class='template active']/path");
+    const auto quartic = xml(page_picture(page, {}, plain_scores(page, 0), "title", StrokeStyle::lines));
+    const auto cubic_paths = all(cubic, "//g[@class='template']/path");
+    const auto quartic_paths = all(quartic, "//g[@class='template']/path");
     REQUIRE(cubic_paths.size() == quartic_paths.size());
     const std::vector<Stroke> strokes_of = strokes(character);
     for (std::size_t i = 0; i < cubic_paths.size(); ++i) {
@@ -284,197 +487,89 @@ TEST_CASE("as lines, quartic curves are drawn like the equal cubic curves", "[pr
   }
 }
 
-TEST_CASE("the red ellipse is at the start of the last active stroke", "[practice]") {
-  const PracticePage page = page_of("永北");
-  const auto at = [&](const Recording& recording, int active, std::size_t stroke) {
-    const auto document = xml(page_picture(page, recording, active, "title"));
-    const Point expected = in_picture(document, start_of(page.characters[static_cast<std::size_t>(active)], stroke));
-    return (ellipse_centre(document) - expected).norm() < 0.001;
-  };
-  Recording recording;
-  CHECK(at(recording, 0, 0));
-  CHECK(at(recording, 1, 0));
-  append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
-  append_run(recording, 0, 1, corner, TickEvent::stroke_finished);
-  CHECK(at(recording, 0, 2));
-  CHECK(at(recording, 1, 0));
-  recording.samples.push_back(sample(cs, 0, 5, corner[0]));  // complete, with the pen still down
-  CHECK(at(recording, 0, 4));
-  recording.samples.push_back(sample(ss, 1, 0, corner[0]));
-  CHECK(at(recording, 0, 4));
-  CHECK(at(recording, 1, 0));
-  recording.samples.push_back(sample(ws, 1, 3, corner[0]));
-  CHECK(at(recording, 0, 4));
-  CHECK(at(recording, 1, 3));
-}
-
-TEST_CASE("traces show the path of the pen in light green, in page coordinates", "[practice]") {
-  const PracticePage page = page_of("永北");
-  Recording recording;
-  recording.samples.push_back(sample(ss, 0, 0, {0.01, 0.01}));
-  append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
-  const auto document = xml(page_picture(page, recording, 0, "title", StrokeStyle::lines));
-  const auto traces = all(document, "//g[@class='trace']");
-  REQUIRE(traces.size() == 1);
-  REQUIRE(paths(traces[0]) == 1);
-  CHECK(std::string(traces[0].child("path").attribute("stroke").value()) == "#5fce5f");
-  const auto drawn = points(traces[0].child("path"));
-  REQUIRE(drawn.size() == 3);
-  for (std::size_t i = 0; i < 3; ++i) CHECK((drawn[i] - in_picture(document, corner[i])).norm() < 0.001);
-}
-
-TEST_CASE("the trace of a finished stroke is light green ink along the path of the pen", "[practice]") {
-  PracticePage page = page_of("一");
-  StrokeInk ink;
-  ink.half_widths.fill(0.05);
-  page.characters[0].character.physics.ink = {ink};
-  Recording recording;
-  append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
-  const auto document = xml(page_picture(page, recording, 0, "title"));
-  const auto traces = all(document, "//g[@class='trace']/path");
-  REQUIRE(traces.size() == 1);
-  CHECK(std::string(traces[0].attribute("fill").value()) == "#5fce5f");
-  std::vector<Point> path;
-  for (const Point& tip : corner) path.push_back(in_picture(document, tip));
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    for (double t = 0.0; t <= 1.0; t += 0.05) CHECK(is_filled(traces[0], path[i] + t * (path[i + 1] - path[i])));
-  }
-  const double half_width = 0.6 * 0.05 * 1e3 * page.characters[0].placement.em;
-  for (const Point& vertex : points(traces[0])) CHECK(std::abs(distance(path, vertex) - half_width) < 0.05);
-}
-
-TEST_CASE("the trace of a stroke in progress, or of none that is known, is a line", "[practice]") {
+TEST_CASE("a pen that stood still leaves a dot, and rejected samples leave no mark", "[practice]") {
   const PracticePage page = page_of("永");
-  const auto is_line = [&page](const Recording& recording) {
-    const auto traces = all(xml(page_picture(page, recording, 0, "title")), "//g[@class='trace']/path");
-    REQUIRE(traces.size() == 1);
-    return traces[0].attribute("fill").value() == std::string("none") && points(traces[0]).size() == 3;
-  };
-  Recording unknown;
-  append_run(unknown, 0, 99, corner, TickEvent::stroke_finished);
-  CHECK(is_line(unknown));
-  for (RecordedSample& each : unknown.samples) each.stroke = -1;
-  CHECK(is_line(unknown));
-  Recording open;
-  for (const Point& tip : corner) open.samples.push_back(sample(ws, 0, 0, tip));
-  CHECK(is_line(open));
-}
-
-TEST_CASE("a pen that stood still leaves a dot in either style", "[practice]") {
-  const PracticePage page = page_of("永");
-  Recording recording;
-  append_run(recording, 0, 0, {corner[0], corner[0], corner[0]}, TickEvent::stroke_finished);
-  for (const StrokeStyle style : {StrokeStyle::ink, StrokeStyle::lines}) {
-    const std::string svg = page_picture(page, recording, 0, "title", style);
-    CHECK(svg.find("nan") == std::string::npos);
-    CHECK(all(xml(svg), "//g[@class='trace']/path").size() == 1);
-  }
-}
-
-TEST_CASE("traces of abandoned attempts are omitted, an unfinished one is shown", "[practice]") {
-  const PracticePage page = page_of("永北");
-  const auto count = [&page](const Recording& recording) {
-    const auto document = xml(page_picture(page, recording, 0, "title"));
-    return all(document, "//g[@class='trace']/path").size();
-  };
-  Recording recording;
-  append_run(recording, 0, 0, corner, TickEvent::stroke_abandoned);
-  CHECK(count(recording) == 0);
-  append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
-  append_run(recording, 0, 1, corner, TickEvent::stroke_abandoned);
-  append_run(recording, 0, 1, corner, TickEvent::stroke_abandoned);
-  CHECK(count(recording) == 1);
-  recording.samples.push_back(sample(ws, 0, 1, corner[0]));
-  recording.samples.push_back(sample(ws, 0, 1, corner[1]));
-  CHECK(count(recording) == 2);
-}
-
-TEST_CASE("a stroke that ends as the next character begins belongs to its own character", "[practice]") {
-  const PracticePage page = page_of("永北");
-  Recording recording;
-  append_run(recording, 0, 4, corner, TickEvent::stroke_finished);
-  recording.samples.back().character = 1;
-  append_run(recording, 1, 0, corner, TickEvent::stroke_finished);
-  const auto count = [&](int active) {
-    return all(xml(page_picture(page, recording, active, "title")), "//g[@class='trace']/path").size();
-  };
-  CHECK(count(0) == 1);
-  CHECK(count(1) == 2);
-}
-
-TEST_CASE("rejected samples leave no mark", "[practice]") {
-  const PracticePage page = page_of("永");
-  Recording recording;
-  append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
-  RecordedSample bad = sample(ws, 0, 0, {1.0, 1.0});
+  Hand still(page);
+  still.draw({{0.5, 0.5}, {0.5, 0.5}}, false);
+  CHECK(points(lines_of(still.picture(), "attempt").at(0)).size() == 2);
+  Hand hand(page);
+  hand.draw({{0.2, 0.5}, {0.5, 0.5}, {0.5, 0.7}}, false);
+  const std::string expected = lines_of(hand.picture(), "attempt").at(0).attribute("d").value();
+  RecordedSample bad = hand.recording.samples[1];
+  bad.pen_tip.setConstant(1.0);
   bad.status = TickStatus::bad_sample;
-  recording.samples.insert(recording.samples.begin() + 1, bad);
+  hand.recording.samples.insert(hand.recording.samples.begin() + 1, bad);
   bad.status = TickStatus::ok;
   bad.pen_tip.setConstant(std::numeric_limits<double>::quiet_NaN());
-  recording.samples.insert(recording.samples.begin() + 1, bad);
-  const std::string svg = page_picture(page, recording, 0, "title", StrokeStyle::lines);
-  CHECK(points(all(xml(svg), "//g[@class='trace']/path").at(0)).size() == 3);
-  CHECK(svg.find("nan") == std::string::npos);
+  hand.recording.samples.insert(hand.recording.samples.begin() + 1, bad);
+  CHECK(lines_of(hand.picture(), "attempt").at(0).attribute("d").value() == expected);
 }
 
-TEST_CASE("a drawn trace is within 0.03 mm of the recorded one", "[practice]") {
-  Recording recording;
+TEST_CASE("a pen that leaves the square stays in the picture", "[practice]") {
+  const PracticePage page = page_of("永");
+  Hand hand(page);
+  hand.draw({{0.5, 0.5}, {1.9, 0.4}, {0.4, -0.9}}, false);
+  const auto document = hand.picture();
+  for (const Point& point : points(lines_of(document, "attempt").at(0))) {
+    CHECK(point.x() < 106.0);
+    CHECK(point.y() < 110.0);
+  }
+}
+
+TEST_CASE("a drawn pen-down is within 0.03 mm of the recorded one on a page", "[practice]") {
+  const PracticePage page = page_of("永");
+  const Placement& placement = page.characters[0].placement;
   std::vector<Point> wave;
-  for (int i = 0; i < 5000; ++i) wave.emplace_back(0.04 + 8e-6 * i, 0.06 + 0.002 * std::sin(0.01 * i));
-  append_run(recording, 0, 0, wave, TickEvent::stroke_finished);
-  const auto document = xml(page_picture(page_of("永"), recording, 0, "title", StrokeStyle::lines));
-  const auto drawn = points(all(document, "//g[@class='trace']/path").at(0));
+  for (int i = 0; i < 5000; ++i) wave.emplace_back(0.1 + 1.6e-4 * i, 0.5 + 0.05 * std::sin(0.01 * i));
+  Hand hand(page);
+  hand.draw(wave, false);
+  const auto document = hand.page_picture();
+  const auto drawn = points(lines_of(document, "attempt").at(0));
   CHECK(drawn.size() < 500);
   double largest = 0.0;
   for (const Point& tip : wave) {
-    largest = std::max(largest, distance(drawn, in_picture(document, tip)));
+    largest = std::max(largest, distance(drawn, in_picture(document, placement.to_page(tip))));
   }
   CHECK(largest < 0.03);  // [mm]
 }
 
 TEST_CASE("the picture of long scribbles stays under 300 kB", "[practice]") {
   const PracticePage page = page_of("永北京航空天");
-  for (const auto& [attempts, length] : {std::pair{1, 5000}, std::pair{5, 80}}) {
-    Recording recording;
-    calligraphy_test::Sequence random(1);
-    for (int character = 0; character < 6; ++character) {
-      for (int i = 0; i < 4 * attempts; ++i) {
-        std::vector<Point> scribble;
-        for (int k = 0; k < length; ++k) scribble.push_back(random.point(0.05, 0.055));
-        append_run(recording, character, i % 4, scribble, TickEvent::stroke_finished);
-      }
-    }
-    for (const StrokeStyle style : {StrokeStyle::ink, StrokeStyle::lines}) {
-      const std::string svg = page_picture(page, recording, 5, "title", style);
-      CAPTURE(attempts, static_cast<int>(style));
-      CHECK(svg.size() < 300000);
-      const std::size_t filled = all(xml(svg), "//g[@class='trace']/path[@fill!='none']").size();
-      CHECK(all(xml(svg), "//g[@class='trace']/path").size() == static_cast<std::size_t>(24 * attempts));
-      CHECK((filled > 0) == (style == StrokeStyle::ink && length == 80));
+  calligraphy_test::Sequence random(1);
+  Hand hand(page);
+  for (const PlacedCharacter& placed : page.characters) {
+    for (int i = 0; i < placed.character.stroke_count(); ++i) {
+      PenPath scribble;
+      for (int k = 0; k < 5000; ++k) scribble.push_back(random.point(0.1, 0.9));
+      hand.draw(scribble, true);
     }
   }
+  std::vector<CharacterScore> scores(page.characters.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    scores[i].match.drawn.resize(static_cast<std::size_t>(page.characters[i].character.stroke_count()));
+    count += scores[i].match.drawn.size();
+  }
+  const std::string svg = page_picture(page, hand.recording, scores, "title");
+  CHECK(svg.size() < 300000);
+  CHECK(lines_of(xml(svg), "trace").size() == count);
+  CHECK(character_picture(page, hand.recording, scores, 3, "title").size() < 300000);
 }
 
-TEST_CASE("the picture of a real session shows one trace per finished stroke", "[practice]") {
+TEST_CASE("the pictures of a real session show each of its pen-downs once", "[practice]") {
   const PracticePage page = page_of("永北");
-  const Recording recording = write_page(page, calligraphy_test::session(WriterSkill::novice(), FeedbackMode::force));
-  std::size_t finished = 0;
-  for (const RecordedSample& each : recording.samples) finished += has_event(each.events, TickEvent::stroke_finished);
-  REQUIRE(finished > 0);
-  const std::string svg = page_picture(page, recording, 1, "title");
-  CHECK(all(xml(svg), "//g[@class='trace']/path").size() == finished);
-  CHECK(page_picture(page, recording, 1, "title") == svg);
-}
-
-TEST_CASE("the legend of a page is in the language asked for", "[practice]") {
-  const auto legend = [](const Language& language) {
-    const auto document = xml(page_picture(page_of("永"), {}, 0, "永", StrokeStyle::ink, language));
-    std::string words;
-    for (const auto& node : all(document, "//g[@class='legend']/text")) words += std::string(node.text().get()) + "|";
-    return words;
-  };
-  CHECK(legend(Language("en")) == "template|active character|trace|start of the active stroke|");
-  CHECK(legend(Language("zh")) == "范字|正在写的字|笔迹|当前笔画的起点|");
+  const Recording recording = write_page(page, calligraphy_test::session(WriterSkill::novice(), FeedbackMode::vision, 2));
+  const std::vector<CharacterScore> scores = score_page(page, recording);
+  const auto on_page = xml(page_picture(page, recording, scores, "title"));
+  std::size_t pen_downs = 0;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const auto document = xml(character_picture(page, recording, scores, static_cast<int>(i), "title"));
+    CHECK(lines_of(document, "trace").size() == static_cast<std::size_t>(scores[i].strokes_completed));
+    CHECK(lines_of(document, "trace").size() + lines_of(document, "attempt").size() == scores[i].match.drawn.size());
+    pen_downs += scores[i].match.drawn.size();
+  }
+  CHECK(pen_downs > 10);  // some did not count
+  CHECK(lines_of(on_page, "trace").size() + lines_of(on_page, "attempt").size() == pen_downs);
 }
 
 TEST_CASE("a title may contain anything but invalid UTF-8", "[practice]") {
@@ -482,29 +577,30 @@ TEST_CASE("a title may contain anything but invalid UTF-8", "[practice]") {
   for (const std::string title : {"<&>\"'", "北京 ]]> <!--", "bell \x07 and tab\t", "",
                                   "a very long title, much longer than the page is wide, which must be set smaller"}) {
     CAPTURE(title);
-    const auto document = xml(page_picture(page, {}, 0, title));
+    const auto document = xml(page_picture(page, {}, plain_scores(page, 0), title));
     std::string expected = title;
     for (char& c : expected) c = (c == '\x07' || c == '\t') ? ' ' : c;
     CHECK(document.child("svg").child("title").text().get() == expected);
   }
-  CHECK_THROWS_AS(page_picture(page, {}, 0, "\xff"), FormatError);
+  CHECK_THROWS_AS(character_picture(page, {}, plain_scores(page, 0), 0, "\xff"), FormatError);
 }
 
-TEST_CASE("an invalid page or active character is an error naming the value", "[practice]") {
+TEST_CASE("an invalid page, an index beyond it or scores of other writing are an error naming the value", "[practice]") {
   const PracticePage page = page_of("永");
-  const auto error = [](const PracticePage& some, int active) -> std::string {
+  const auto error = [](const PracticePage& some, int index, std::size_t pen_downs = 0) -> std::string {
     try {
-      page_picture(some, {}, active, "title");
+      character_picture(some, {}, plain_scores(some, pen_downs), index, "title");
     } catch (const ValueError& caught) {
       return caught.what();
     }
     return {};
   };
-  CHECK(error(page, 1) == "active character 1: the page has 1");
-  CHECK(error(page, -1) == "active character -1: the page has 1");
-  CHECK(error({0.1, 0.1, {}}, 0) == "active character 0: the page has 0");
-  CHECK(error({0.0, 0.1, page.characters}, 0).find("width of the page = 0 m") == 0);
-  CHECK(error({0.1, 0.1, {PlacedCharacter{}}}, 0) == "character 0 of the page: there is no stroke");
+  CHECK(error(page, 1) == "character 1: the page has 1");
+  CHECK(error(page, -1) == "character -1: the page has 1");
+  CHECK(error(page, 0, 2) == "scores: character 0 has 2 pen-downs, in the recording 0");
+  CHECK(error({0.0, 0.1, page.characters}, 0).find("width of the page") == 0);
+  CHECK_FALSE(error({0.1, 0.1, {PlacedCharacter{}}}, 0).empty());
+  CHECK_THROWS_AS(page_picture(page, {}, {}, "title"), ValueError);
 }
 
 TEST_CASE("the sheet of typical strokes has a group for each of the 39", "[practice]") {

@@ -71,7 +71,7 @@ class Runs(ProgramTest):
 
     def test_force_removes_the_files_of_the_run_that_is_there_and_no_others(self):
         self.run_program("write", "十一", "--mode", "force", "--out", "out")
-        self.assertIn("out/02-一-force.svg", self.files())
+        self.assertIn("out/02-一-force-writing.svg", self.files())
         (self.directory / "out/notes.txt").write_text("mine")
         self.run_program("write", "十", "--mode", "force", "--out", "out", "--force")
         left = {path.name for path in (self.directory / "out").iterdir()}

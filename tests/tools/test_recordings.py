@@ -120,11 +120,11 @@ class Recordings(ProgramTest):
         (self.directory / "gnuplot").chmod(0o755)
         done = self.run_program("write", "十", "--out", "out",
                                 environment={"PATH": f"{self.directory}:{os.environ['PATH']}"})
-        self.assertRegex(done.stderr, r"warning: 01-十-force-force\.svg is missing: .*broken")
-        self.assertRegex(self.record()["warnings"][0], r"01-十-force-force\.svg is missing: .*broken")
+        self.assertRegex(done.stderr, r"warning: 01-十-force-plot\.svg is missing: .*broken")
+        self.assertRegex(self.record()["warnings"][0], r"01-十-force-plot\.svg is missing: .*broken")
         self.assertEqual({path.name for path in (self.directory / "out").iterdir()},
                          {"summary.json", "strokes.csv", "page-1-force-1.recording.gz", "page-1-vision-1.recording.gz",
-                          "01-十-force.svg", "01-十-vision.svg"})
+                          "01-十-force-writing.svg", "01-十-vision-writing.svg"})
         self.assertTrue(self.record()["finished"])
 
     def test_options_of_traces_are_refused_for_recordings_and_the_other_way_round(self):

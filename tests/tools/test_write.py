@@ -59,7 +59,7 @@ class Write(ProgramTest):
         self.assertIn("你写的第1笔是第1笔（点），但方向反了，从左上方起笔。", chinese)
         self.assertEqual(printed.splitlines()[1].split()[:3], ["汉字", "方式", "[s]"])
         self.assertIn("n = 1 对书写：太少", printed)
-        self.assertIn(">永, 仅视觉, Phantom Desktop<", (self.directory / "out/01-永-vision.svg").read_text())
+        self.assertIn(">永, 仅视觉, Phantom Desktop<", (self.directory / "out/01-永-vision-writing.svg").read_text())
         self.assert_refused(2, [*arguments, "--language", "tlh"], "--language", "tlh")
 
         printed = self.run_program("write", "永", "--mode", "vision", "--repeat", "100", "--out", "many").stdout
@@ -112,10 +112,11 @@ class Write(ProgramTest):
         self.assertNotIn("%", done.stderr, "no progress bar in a pipe")
         out = self.directory / "deep" / "out"
         stems = [f"{n:02}-{c}-{mode}" for n, c in ((1, "十"), (2, "人")) for mode in ("vision", "force")]
-        expected = {"summary.json", "strokes.csv"} | {stem + ".svg" for stem in stems}
-        expected |= {f"page-1-{mode}-1.recording.gz" for mode in ("vision", "force")}
+        expected = {"summary.json", "strokes.csv"} | {stem + "-writing.svg" for stem in stems}
+        for mode in ("vision", "force"):
+            expected |= {f"page-1-{mode}-1.recording.gz", f"page-1-{mode}-writing.svg"}
         if shutil.which("gnuplot"):
-            expected |= {stem + "-force.svg" for stem in stems if stem.endswith("force")}
+            expected |= {stem + "-plot.svg" for stem in stems if stem.endswith("force")}
             self.assertEqual(done.stderr, "")
         self.assertEqual({path.name for path in out.iterdir()}, expected)
         for picture in out.glob("*.svg"):
@@ -218,15 +219,15 @@ class Write(ProgramTest):
         for options, style in ([], "fill"), (["--lines"], "stroke"):
             out = self.directory / style
             self.run_program("write", "人", "--mode", "force", "--out", style, *options)
-            groups = list(xml.parse(out / "01-人-force.svg").getroot().iter("{http://www.w3.org/2000/svg}g"))
-            self.assertEqual([g.get(style) for g in groups if g.get("class") == "template active"], ["#f2b705"])
+            groups = list(xml.parse(out / "01-人-force-writing.svg").getroot().iter("{http://www.w3.org/2000/svg}g"))
+            self.assertEqual([g.get(style) for g in groups if g.get("class") == "template"], ["#c5d6f7"])
 
     def test_a_run_is_reproducible_to_the_last_digit(self):
         for out in ("a", "b"):
             self.run_program("write", "人", "--out", out, "--seed", "7")
         self.assertEqual(self.without_ticks("a"), self.without_ticks("b"))
-        self.assertEqual((self.directory / "a/01-人-force.svg").read_bytes(),
-                         (self.directory / "b/01-人-force.svg").read_bytes())
+        self.assertEqual((self.directory / "a/01-人-force-writing.svg").read_bytes(),
+                         (self.directory / "b/01-人-force-writing.svg").read_bytes())
         self.run_program("write", "人", "--out", "c", "--seed", "8")
         self.assertNotEqual(self.without_ticks("a"), self.without_ticks("c"))
 
@@ -292,13 +293,13 @@ class Write(ProgramTest):
     def test_a_repeated_character_fills_as_many_pages_as_needed(self):
         self.run_program("write", "一一一一一一一一", "--out", "out", "--mode", "force")
         self.assertEqual([row["position"] for row in self.summary()], list(range(1, 9)))
-        self.assertTrue((self.directory / "out/08-一-force.svg").exists())
+        self.assertTrue((self.directory / "out/08-一-force-writing.svg").exists())
 
     def test_characters_of_a_text_file_are_written(self):
         (self.directory / "own.txt").write_text("calligraphy characters 2\nsource s\nlicence l\nattribution a\n\n"
                                                 "character /\nstroke 1 0.1,0.5 0.9,0.5\n")
         self.run_program("write", "/", "--out", "out", "--characters", "own.txt", "--mode", "force")
-        self.assertTrue((self.directory / "out/01-U+002F-force.svg").exists(), self.files())
+        self.assertTrue((self.directory / "out/01-U+002F-force-writing.svg").exists(), self.files())
 
     def test_characters_of_a_set_file_are_written_in_the_requested_order(self):
         data = str(Path(__file__).resolve().parent.parent / "data" / "version_1.set")
@@ -306,8 +307,8 @@ class Write(ProgramTest):
         self.assertEqual([(row["strokes_completed"], row["strokes"]) for row in self.summary()], [(5, 5), (1, 1)])
         self.run_program("write", "北", "--out", "other", "--characters", data, "--mode", "force", "--order", "Table 3")
         self.assertEqual([row["strokes_completed"] for row in self.summary("other")], [5])
-        self.assertNotEqual((self.directory / "out/01-北-force.svg").read_bytes(),
-                            (self.directory / "other/01-北-force.svg").read_bytes())
+        self.assertNotEqual((self.directory / "out/01-北-force-writing.svg").read_bytes(),
+                            (self.directory / "other/01-北-force-writing.svg").read_bytes())
 
     def test_characters_of_hanzi_writer_data_are_written(self):
         self.run_program("write", "永和九年", "--out", "out", "--characters", self.data_directory())

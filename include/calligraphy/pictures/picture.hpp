@@ -1,23 +1,36 @@
-// SVG pictures: a page as on the paper's display (Wang 2006, sec. 7.2, Figs. 30, 31, 37, 38), and the typical strokes.
+// SVG pictures: what was written of a character or a page (Wang 2006, sec. 7.2, Figs. 30, 31, 37, 38), and the typical
+// strokes.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include <calligraphy/judge/language.hpp>
 #include <calligraphy/pictures/stroke_style.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/recording.hpp>
+#include <calligraphy/practice/score.hpp>
 
 namespace calligraphy {
 
-/// Draws the page, life-size, after character `active` (index) has been written: templates blue, the active character
-/// yellow, traces light green, and a red ellipse at the start of the active stroke (of the last stroke once the
-/// character is complete). Traces of abandoned attempts are cleared, as on the display (sec. 4.3). A trace drawn as ink
-/// has the profile of its stroke at 0.6 of the width, so that the template shows on both sides where the pen kept to
-/// the path; the trace of a stroke in progress is a line. The language is that of the legend.
-/// @throws ValueError when `active` is not on the page or the page is invalid, FormatError when the title is not UTF-8
-std::string page_picture(const PracticePage& page, const Recording& recording, int active, const std::string& title,
-                         StrokeStyle style = StrokeStyle::ink, const Language& language = {});
+/// Draws what was written of a character, 112 mm wide, its square 89 mm unless the pen left it: the template pale, and
+/// on it each pen-down as a dark line with an arrow and its number in writing order. Red marks what is out of order,
+/// backwards, extra or missing, orange what was joined, broken or has another shape. Attempts that the session did not
+/// count as a stroke are faint and dashed. Where pen-downs and strokes do not correspond one to one, the template has
+/// numbers of its own, in blue. Until the character is complete, a ring marks the start of the stroke that is due. Below
+/// are a legend of what occurs, and the remarks. `scores` are those of the page by score_page(), and `index` counts its
+/// characters from 0. The style is that of the template, the language that of all words but the title.
+/// @throws ValueError when the page is invalid or has no such character, or the scores do not belong to the recording,
+/// FormatError when the title is not UTF-8
+std::string character_picture(const PracticePage& page, const Recording& recording,
+                              std::span<const CharacterScore> scores, int index, const std::string& title,
+                              StrokeStyle style = StrokeStyle::ink, const Language& language = {});
+
+/// Draws the whole page in the same way, life-size and without remarks.
+/// @throws ValueError when the page is invalid or the scores do not belong to the recording, FormatError when the title
+/// is not UTF-8
+std::string page_picture(const PracticePage& page, const Recording& recording, std::span<const CharacterScore> scores,
+                         const std::string& title, StrokeStyle style = StrokeStyle::ink, const Language& language = {});
 
 /// Draws all typical strokes with ID, names, elements, control points and feature points (Figs. 7 and 9 to 12).
 std::string typical_strokes_picture(StrokeStyle style = StrokeStyle::ink);
