@@ -14,13 +14,14 @@ build/tools/calligraphy write 北京航空 --out demo --force "$@"
 cat << END
 
 In $PWD/demo, which the next run of this script replaces:
-  NN-CHARACTER-MODE.svg        the page: template blue, active character yellow, trace green
-  NN-CHARACTER-force-force.svg force over time
-  page-N-MODE-1.recording.gz   everything that came in; `calligraphy replay` makes the forces again
-  strokes.csv                  a line per stroke
-  summary.json                 the table above, scores, and the reason of each mistake
+  NN-CHARACTER-MODE-writing.svg what was written of a character: strokes numbered, mistakes red
+  page-N-MODE-writing.svg       the whole page
+  NN-CHARACTER-force-plot.svg   force over time
+  page-N-MODE-1.recording.gz    everything that came in; `calligraphy replay` makes the forces again
+  strokes.csv                   a line per stroke
+  summary.json                  the table above, scores, and the reason of each mistake
 
-A picture leaves out attempts that were abandoned. Other characters, and what force changes over 20 pairs of trials:
+Other characters, and what force changes over 20 pairs of trials:
   build/tools/calligraphy write 永 --repeat 20 --out yong
 The program, task by task: docs/program.md
 To write yourself, with a mouse, a finger or a pen, in a browser:

@@ -119,8 +119,10 @@ Numbers::Numbers(pugi::xml_node root, double size)
                        {"stroke-width", svg::number(0.2 * size)}})),
       labels_(size) {}
 
-pugi::xml_node Numbers::add_group(pugi::xml_node root, const char* name) {
-  return svg::add(root, "g", {{"class", name}, {"text-anchor", "middle"}, {"font-weight", "bold"}});
+pugi::xml_node Numbers::add_group(pugi::xml_node root, const char* name, const char* font_style) {
+  return svg::add(
+      root, "g",
+      {{"class", name}, {"text-anchor", "middle"}, {"font-weight", "bold"}, {"font-style", font_style}});
 }
 
 void Numbers::draw(pugi::xml_node group, std::span<const Point> points, std::size_t number, const char* colour) {

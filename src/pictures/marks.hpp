@@ -63,8 +63,8 @@ class Numbers {
   Numbers(pugi::xml_node root, double size);
 
   Labels& labels() { return labels_; }
-  /// Another group, in front of those before it.
-  pugi::xml_node add_group(pugi::xml_node root, const char* name);
+  /// Another group, in front of those before it. Numbers of the correct order are italic, those of the pen upright.
+  pugi::xml_node add_group(pugi::xml_node root, const char* name, const char* font_style);
   void draw(pugi::xml_node group, std::span<const Point> points, std::size_t number, const char* colour);
 
  private:

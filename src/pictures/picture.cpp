@@ -167,7 +167,7 @@ void draw_pen(pugi::xml_node root, const Writing& writing, const svg::View& em, 
   attempts.append_attribute("opacity") = "0.6";
   pugi::xml_node traces = marks::add_lines(root, "trace", sizes.line);
   marks::Numbers numbers(root, sizes.label);
-  pugi::xml_node drawn = numbers.add_group(root, "drawn-number");
+  pugi::xml_node drawn = numbers.add_group(root, "drawn-number", "normal");
   const std::vector<DrawnStroke>& wrote = writing.match.drawn;
   for (const PenLine& line : writing.lines) {
     if (line.counted) numbers.labels().avoid(em(line.path));
@@ -187,7 +187,7 @@ void draw_pen(pugi::xml_node root, const Writing& writing, const svg::View& em, 
   }
   if (!corresponds(writing)) {
     shown.order = true;
-    pugi::xml_node standard = numbers.add_group(root, "standard-number");
+    pugi::xml_node standard = numbers.add_group(root, "standard-number", "italic");
     const std::vector<std::vector<Point>> templates = middle_lines(writing.character);
     for (std::size_t i = 0; i < templates.size(); ++i) {
       const bool missing = is_missing(writing, i);
@@ -255,7 +255,10 @@ void draw_legend(TextColumn& column, const Shown& shown, const Language& languag
   if (shown.order) {
     const std::vector<Point> points = begin("picture.order");
     add_text(column.parent, 0.5 * (points[0].x() + points[1].x()), column.y, column.size(), "1 2",
-             {{"text-anchor", "middle"}, {"font-weight", "bold"}, {"fill", marks::number_colour}});
+             {{"text-anchor", "middle"},
+              {"font-weight", "bold"},
+              {"font-style", "italic"},
+              {"fill", marks::number_colour}});
   }
   if (shown.due) {
     const std::vector<Point> points = begin("picture.start");

@@ -66,8 +66,8 @@ void draw_written(pugi::xml_node root, const Character& character, std::span<con
                   const MatchResult& match, const svg::View& view) {
   pugi::xml_node lines = marks::add_lines(root, "written", sizes.line);
   marks::Numbers numbers(root, sizes.label);
-  pugi::xml_node drawn = numbers.add_group(root, "drawn-number");
-  pugi::xml_node standard = numbers.add_group(root, "standard-number");
+  pugi::xml_node drawn = numbers.add_group(root, "drawn-number", "normal");
+  pugi::xml_node standard = numbers.add_group(root, "standard-number", "italic");
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (!marks::bounced(match.drawn[i])) numbers.labels().avoid(view(paths[i]));
   }

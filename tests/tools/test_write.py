@@ -211,7 +211,7 @@ class Write(ProgramTest):
         for mode in ("vision", "force"):
             seeds = [(r["repetition"], r["seed"]) for r in rows if r["mode"] == mode and r["character"] == "十"]
             self.assertEqual(seeds, [(1, 5), (2, 6), (3, 7)])
-        kept = sorted(path.name for path in (self.directory / "out").glob("page-*"))
+        kept = sorted(path.name for path in (self.directory / "out").glob("page-*.gz"))
         self.assertEqual(kept, [f"page-1-{mode}-1.recording.gz" for mode in ("force", "vision")],
                          "of the first repetition only")
 

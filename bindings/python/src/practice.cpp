@@ -191,12 +191,24 @@ void add_practice(py::module_& module) {
   module.def(
       "mean_score", [](const std::vector<CharacterScore>& scores) { return mean_score(scores); }, "scores"_a);
   module.def(
+      "character_picture",
+      released(+[](const PracticePage& page, const Recording& recording, int index, const std::string& title,
+                   StrokeStyle style, const std::string& language,
+                   const std::optional<std::vector<CharacterScore>>& scores) {
+        const std::vector<CharacterScore> known = scores ? *scores : score_page(page, recording);
+        return character_picture(page, recording, known, index, title, style, Language(language));
+      }),
+      "page"_a, "recording"_a, "index"_a = 0, "title"_a = "", "style"_a = StrokeStyle::ink, "language"_a = "en",
+      "scores"_a = py::none(), "+ `scores` are those of score_page(), by default with its default tolerances.");
+  module.def(
       "page_picture",
-      [](const PracticePage& page, const Recording& recording, int active, const std::string& title, StrokeStyle style,
-         const std::string& language) {
-        return released(&page_picture)(page, recording, active, title, style, Language(language));
-      },
-      "page"_a, "recording"_a, "active"_a = 0, "title"_a = "", "style"_a = StrokeStyle::ink, "language"_a = "en");
+      released(+[](const PracticePage& page, const Recording& recording, const std::string& title, StrokeStyle style,
+                   const std::string& language, const std::optional<std::vector<CharacterScore>>& scores) {
+        const std::vector<CharacterScore> known = scores ? *scores : score_page(page, recording);
+        return page_picture(page, recording, known, title, style, Language(language));
+      }),
+      "page"_a, "recording"_a, "title"_a = "", "style"_a = StrokeStyle::ink, "language"_a = "en",
+      "scores"_a = py::none(), "+ See character_picture for scores.");
 
   module.def(
       "mean_interval",

@@ -143,15 +143,22 @@ def test_a_pen_that_never_touched_the_paper_or_stood_still_on_it():
 def test_a_page_with_what_was_written_on_it():
     page = page_of("永人")
     recording = written(page)
-    picture = xml.fromstring(cal.page_picture(page, recording, 1, "<both>", "lines"))
-    assert picture.find(SVG + "title").text == "<both>" and picture.get("width") == "172mm"
-    assert len(picture.findall(f".//{SVG}g[@class='trace']/{SVG}path")) == 7
-    assert [text.text for text in picture.iter(SVG + "text")][1:2] == ["template"]
-    assert ">范字<" in cal.page_picture(page, recording, 1, language="zh")
+    def lines(picture):
+        return [path for path in xml.fromstring(picture).findall(f".//{SVG}g[@class='trace']/{SVG}path")
+                if path.get("stroke") != "none"]
+
+    whole = cal.page_picture(page, recording, "<both>", "lines")
+    assert xml.fromstring(whole).find(SVG + "title").text == "<both>" and len(lines(whole)) == 7
+    assert len(lines(cal.character_picture(page, recording, 1))) == 2
+    assert ">范字<" in cal.character_picture(page, recording, 1, language="zh")
+    scores = cal.score_page(page, recording)
+    assert cal.page_picture(page, recording, "<both>", "lines", scores=scores) == whole
+    with pytest.raises(cal.InvalidValue, match="scores: expected one for each of 2"):
+        cal.character_picture(page, recording, 1, scores=scores[:1])
     with pytest.raises(cal.InvalidValue, match='language "xx"'):
-        cal.page_picture(page, recording, 1, language="xx")
-    with pytest.raises(cal.InvalidValue, match="active character 2: the page has 2"):
-        cal.page_picture(page, recording, 2)
+        cal.page_picture(page, recording, language="xx")
+    with pytest.raises(cal.InvalidValue, match="character 2: the page has 2"):
+        cal.character_picture(page, recording, 2)
 
 
 def test_a_recording_is_a_data_frame_with_flat_columns():
