@@ -20,6 +20,7 @@ configure_package_config_file(cmake/calligraphyConfig.cmake.in ${PROJECT_BINARY_
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/calligraphy)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/calligraphyConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/calligraphyConfig.cmake ${PROJECT_BINARY_DIR}/calligraphyConfigVersion.cmake
+              cmake/FindLibRsvg.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/calligraphy)
 if(CALLIGRAPHY_C)
   file(RELATIVE_PATH prefix_from_pkgconfig /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)  # so that the prefix may be moved

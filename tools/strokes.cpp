@@ -1,9 +1,16 @@
 // calligraphy strokes: draws the 39 typical strokes.
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
 
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/pictures/chinese_font.hpp>
+#include <calligraphy/pictures/pdf.hpp>
 #include <calligraphy/pictures/picture.hpp>
 
 #include "commands.hpp"
@@ -18,15 +25,40 @@ struct StrokesArguments {
   StrokeStyle style = StrokeStyle::ink;
 };
 
+bool names_pdf(const std::string& out) {
+  std::string ending = std::filesystem::path(out).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".pdf";
+}
+
+std::string font_of_names() {
+  std::string font = typical_strokes_font();
+  if (font.empty()) {
+    spdlog::warn(fonts_can_be_found()
+                     ? "no installed font has the Chinese names, which are left out: install one, such as the package "
+                       "fonts-noto-cjk or fonts-wqy-microhei"
+                     : "the Chinese names are left out, because this build cannot find a font: fontconfig was missing");
+  }
+  return font;
+}
+
+void draw_strokes(const StrokesArguments& options) {
+  const bool pdf = names_pdf(options.out);
+  if (pdf && !pdf_available()) throw Error(options.out + ": PDF needs librsvg, without which this program was built");
+  const std::string picture = typical_strokes_picture(options.style, font_of_names());
+  write_output(options.out, pdf ? pdf_of_svg(picture) : picture);
+}
+
 }  // namespace
 
 void add_strokes(CLI::App& program) {
-  CLI::App* const command = program.add_subcommand("strokes", "Draw the 39 typical strokes as SVG.");
+  CLI::App* const command =
+      program.add_subcommand("strokes", "Draw a poster of the 39 typical strokes, as SVG or, into FILE.pdf, as PDF.");
   const auto options = std::make_shared<StrokesArguments>();
-  command->footer("calligraphy strokes --out strokes.svg");
+  command->footer("calligraphy strokes --out strokes.svg\ncalligraphy strokes --out strokes.pdf");
   add_out_file(*command, options->out);
   add_lines_flag(*command, options->style);
-  command->callback([options] { write_output(options->out, typical_strokes_picture(options->style)); });
+  command->callback([options] { draw_strokes(*options); });
 }
 
 }  // namespace calligraphy::tools

@@ -1,14 +1,18 @@
-// The contact sheet of the typical strokes.
+// The poster of the typical strokes.
 #include <calligraphy/pictures/picture.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/typical_ink.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
+#include <calligraphy/pictures/chinese_font.hpp>
 
 #include "svg.hpp"
 
@@ -17,111 +21,186 @@ namespace {
 
 using svg::add;
 using svg::add_text;
-using svg::faint;
-using svg::ink;
 
-// [px]
-constexpr int sheet_columns = 8;
-constexpr double cell_width = 150.0, cell_height = 196.0, cell_em = 128.0, table_margin = 24.0, table_top = 64.0;
-constexpr const char* point_red = "#d62020";
-constexpr const char* stroke_blue = "#a9c4f5";
-constexpr const char* polygon_grey = "#777777";
+// A3, whose proportions all A sizes have [mm].
+constexpr double poster_width = 420.0, poster_height = 297.0;
+constexpr int poster_columns = 8;
+constexpr double cell_em = 35.0, column_step = 49.0, row_step = 53.2, first_column = 24.0, first_row = 25.0;
+constexpr double line_stroke_width = 2.5, head_length = 2.1;
+
+constexpr const char* poster_ink = "#1d1d1f";
+constexpr const char* grid_red = "#ecd3cc";
+constexpr const char* path_red = "#f0502d";  // seen on ink and on paper
+constexpr const char* control_blue = "#6d9bd8";
+constexpr const char* quiet_grey = "#6b6b6b";
+
+constexpr const char* poster_title = "基本笔画";
+constexpr const char* latin_fonts = "'Noto Sans', 'Source Sans 3', 'Helvetica Neue', Arial, sans-serif";
+constexpr const char* chinese_fonts = "'Noto Sans CJK SC', 'Source Han Sans SC', 'Noto Sans SC', 'PingFang SC', "
+                                      "'Microsoft YaHei', 'WenQuanYi Micro Hei', sans-serif";
+
+/// The font, then those of other computers, as CSS.
+std::string families(const std::string& font) {
+  std::string family;
+  for (const char letter : svg::clean(font)) {
+    if (letter == '\'' || letter == '\\') family += '\\';
+    family += letter;
+  }
+  return "'" + family + "', " + chinese_fonts;
+}
 
 void draw_feature_point(pugi::xml_node parent, const Point& at) {
-  svg::add_circle(parent, "feature", at, "3", {{"fill", point_red}});
+  svg::add_circle(parent, "feature", at, "0.62", {{"fill", "#ffffff"}, {"stroke", path_red}, {"stroke-width", "0.3"}});
 }
 
 void draw_control_point(pugi::xml_node parent, const Point& at) {
-  svg::add_circle(parent, "control", at, "3", {{"fill", "#ffffff"}, {"stroke", polygon_grey}});
+  svg::add_circle(parent, "control", at, "0.48",
+                  {{"fill", "#ffffff"}, {"stroke", control_blue}, {"stroke-width", "0.22"}});
 }
 
-/// A ring round the start and an arrow head that leaves it.
-void draw_start(pugi::xml_node parent, const Point& start, const Point& towards) {
-  const Point direction = (towards - start).normalized();
-  const Point side(-direction.y(), direction.x());
-  svg::add_circle(parent, "start", start, "6.5", {{"fill", "none"}, {"stroke", point_red}, {"stroke-width", "1.3"}});
-  const Point back = start + 10.0 * direction;
-  const std::vector<Point> head = {start + 19.0 * direction, back + 4.2 * side, back - 4.2 * side};
-  add(parent, "path", {{"d", svg::polygon_path(head)}, {"fill", point_red}});
+void draw_start(pugi::xml_node parent, const Point& at) {
+  svg::add_circle(parent, "start", at, "1.6", {{"fill", "none"}, {"stroke", path_red}, {"stroke-width", "0.5"}});
 }
 
 void draw_polygon(pugi::xml_node parent, std::span<const Point> points) {
-  const std::string line = svg::line_path(points);
-  add(parent, "path", {{"d", line}, {"fill", "none"}, {"stroke", polygon_grey}, {"stroke-dasharray", "4 3"}});
+  add(parent, "path", {{"class", "polygon"}, {"d", svg::line_path(points)}, {"fill", "none"}, {"stroke", control_blue},
+                       {"stroke-width", "0.22"}, {"stroke-dasharray", "0.9 0.6"}});
 }
 
-void draw_frame(pugi::xml_node parent, double x, double y) {
-  svg::add_rect(parent, {x, y}, cell_em, cell_em, {{"fill", "none"}, {"stroke", faint}});
+/// An arrow head about a point of the path, no longer than `room` allows.
+void draw_arrow(pugi::xml_node parent, const Point& at, const Point& direction, double room) {
+  const double length = std::min(head_length, room);
+  const Point ahead = length * direction.normalized();
+  const Point side = 0.42 * Point(-ahead.y(), ahead.x());
+  const Point back = at - 0.5 * ahead;
+  const std::vector<Point> head = {at + 0.5 * ahead, back + side, back + 0.25 * ahead, back - side};
+  add(parent, "path", {{"class", "direction"}, {"d", svg::polygon_path(head)}, {"fill", path_red}});
 }
 
-void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, StrokeStyle style, double x, double y) {
-  draw_frame(parent, x, y);
+void draw_path(pugi::xml_node parent, const std::string& path) {
+  add(parent, "path", {{"class", "path"}, {"d", path}, {"fill", "none"}, {"stroke", path_red}, {"stroke-width", "0.32"},
+                       {"stroke-linejoin", "round"}});
+}
+
+/// A square with the lines of 米字格, by which pupils place a character.
+void draw_square(pugi::xml_node parent, const Point& corner) {
+  const auto line = [&](double x1, double y1, double x2, double y2) {
+    const std::vector<Point> ends = {corner + cell_em * Point(x1, y1), corner + cell_em * Point(x2, y2)};
+    return svg::line_path(ends);
+  };
+  const std::string lines = line(0, 0, 1, 1) + line(1, 0, 0, 1) + line(0.5, 0, 0.5, 1) + line(0, 0.5, 1, 0.5);
+  add(parent, "path", {{"class", "grid"}, {"d", lines}, {"fill", "none"}, {"stroke", grid_red},
+                       {"stroke-width", "0.15"}, {"stroke-dasharray", "1 0.8"}});
+  svg::add_rect(parent, corner, cell_em, cell_em,
+                {{"class", "frame"}, {"fill", "none"}, {"stroke", grid_red}, {"stroke-width", "0.3"}});
+}
+
+void draw_marks(pugi::xml_node parent, const Stroke& stroke, const svg::View& view) {
+  const std::vector<Point> points = view(stroke.control_points);
+  const std::vector<int> features = feature_points(stroke.elements);
+  const auto is_curve = [&](std::size_t element) {
+    return stroke.elements[element] == static_cast<char>(ElementKind::curve);
+  };
+  for (std::size_t i = 0; i < stroke.elements.size(); ++i) {
+    if (is_curve(i)) draw_polygon(parent, std::span(points).subspan(static_cast<std::size_t>(features[i]), 4));
+  }
+  draw_path(parent, svg::stroke_path(stroke, view));
+  for (std::size_t i = 0; i < stroke.elements.size(); ++i) {
+    const auto first = static_cast<std::size_t>(features[i]), last = static_cast<std::size_t>(features[i + 1]);
+    const double room = 0.7 * (points[last] - points[first]).norm();
+    if (is_curve(i)) {
+      const Bezier<3> curve{{points[first], points[first + 1], points[first + 2], points[last]}};
+      draw_arrow(parent, curve.point(0.5), curve.derivative(0.5), room);
+      draw_control_point(parent, points[first + 1]);
+      draw_control_point(parent, points[first + 2]);
+    } else {
+      draw_arrow(parent, 0.5 * (points[first] + points[last]), points[last] - points[first], room);
+    }
+  }
+  draw_start(parent, points[0]);
+  for (const int feature : features) draw_feature_point(parent, points[static_cast<std::size_t>(feature)]);
+}
+
+void write_names(pugi::xml_node parent, const TypicalStroke& type, const std::string& font, const Point& corner) {
+  const double x = corner.x(), below = corner.y() + cell_em;
+  add_text(parent, x - 1.8, corner.y() + 2.7, 3.7, std::to_string(type.id),
+           {{"class", "number"}, {"text-anchor", "end"}, {"font-weight", "bold"}, {"fill", quiet_grey}});
+  if (font.empty()) {
+    add_text(parent, x, below + 6.4, 4.2, std::string(type.pinyin), {{"class", "pinyin"}});
+  } else {
+    add_text(parent, x, below + 6.2, 5.2, std::string(type.name),
+             {{"class", "name"}, {"font-family", families(font)}, {"xml:lang", "zh-Hans"}});
+    add_text(parent, x, below + 10.7, 3.4, std::string(type.pinyin), {{"class", "pinyin"}});
+  }
+  const std::string code = std::string(type.code) + " \u00b7 " + std::string(type.elements);
+  add_text(parent, x, below + (font.empty() ? 10.8 : 14.4), 2.6, code, {{"class", "code"}, {"fill", quiet_grey}});
+}
+
+void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, StrokeStyle style, const std::string& font,
+                         const Point& corner) {
+  draw_square(parent, corner);
   std::vector<Point> em_points;
   for (const auto& point : type.shape) em_points.emplace_back(point[0], point[1]);
-  const svg::View view{{x, y + cell_em}, cell_em};
+  const svg::View view{corner + Point(0.0, cell_em), cell_em};
   const Character character = with_typical_ink(make_character(0, std::array{StrokeInput{type.id, em_points}}));
-  pugi::xml_node group = svg::add_stroke_group(parent, "template", style, stroke_blue, 9.0);
-  svg::add_stroke(group, strokes(character).front(), style, view);
-
-  const std::vector<Point> points = view(em_points);
-  const std::vector<int> features = feature_points(type.elements);
-  for (std::size_t i = 0; i < type.elements.size(); ++i) {
-    if (type.elements[i] != static_cast<char>(ElementKind::curve)) continue;
-    const auto first = static_cast<std::size_t>(features[i]);
-    draw_polygon(parent, std::span(points).subspan(first, 4));
-    draw_control_point(parent, points[first + 1]);
-    draw_control_point(parent, points[first + 2]);
-  }
-  draw_start(parent, points[0], points[1]);
-  for (const int feature : features) draw_feature_point(parent, points[static_cast<std::size_t>(feature)]);
-
-  const double middle = x + 0.5 * cell_em;
-  const double below = y + cell_em;
-  add_text(parent, middle, below + 18.0, 15.0, std::to_string(type.id) + "  " + std::string(type.name),
-           {{"font-weight", "bold"}, {"xml:lang", "zh-Hans"}});
-  add_text(parent, middle, below + 34.0, 12.5, std::string(type.pinyin));
-  add_text(parent, middle, below + 49.0, 11.5, std::string(type.code) + "  \u00b7  " + std::string(type.elements),
-           {{"fill", "#666666"}});
+  const Stroke stroke = strokes(character).front();
+  pugi::xml_node group = svg::add_stroke_group(parent, "template", style, poster_ink, line_stroke_width);
+  svg::add_stroke(group, stroke, style, view);
+  draw_marks(parent, stroke, view);
+  write_names(parent, type, font, corner);
 }
 
-void draw_key(pugi::xml_node parent, double x, double y) {
-  draw_frame(parent, x, y);
-  const double text_x = x + 34.0;
-  const auto line = [&](double offset, const char* text) {
-    add_text(parent, text_x, y + offset + 4.0, 11.0, text, {{"text-anchor", "start"}});
-    return Point(x + 16.0, y + offset);
+void draw_key(pugi::xml_node parent, const Point& corner) {
+  int row = 0;
+  const auto line = [&](const char* text) {
+    const Point at = corner + Point(4.0, 3.0 + 5.8 * row++);
+    add_text(parent, at.x() + 7.0, at.y() + 1.05, 3.0, text);
+    return at;
   };
-  const Point start = line(18.0, "start, direction");
-  draw_start(parent, start - Point(4.0, 0.0), start + Point(20.0, 0.0));
-  draw_feature_point(parent, start - Point(4.0, 0.0));
-  draw_feature_point(parent, line(42.0, "feature point"));
-  draw_control_point(parent, line(66.0, "control point"));
-  const Point polygon = line(90.0, "control polygon");
-  draw_polygon(parent, std::array{Point(polygon - Point(10.0, 0.0)), Point(polygon + Point(10.0, 0.0))});
-  add_text(parent, x + 6.0, y + 116.0, 11.0, "L line, C B\u00e9zier curve", {{"text-anchor", "start"}});
+  const auto across = [](const Point& at) {
+    return std::array{Point(at - Point(4.0, 0.0)), Point(at + Point(4.0, 0.0))};
+  };
+  draw_start(parent, line("start"));
+  const Point direction = line("path, direction");
+  draw_path(parent, svg::line_path(across(direction)));
+  draw_arrow(parent, direction, Point(1.0, 0.0), head_length);
+  draw_feature_point(parent, line("feature point"));
+  draw_control_point(parent, line("control point"));
+  draw_polygon(parent, across(line("control polygon")));
+  for (const auto& [letter, text] : {std::pair{"L", "line"}, std::pair{"C", "cubic B\u00e9zier curve"}}) {
+    const Point at = line(text);
+    add_text(parent, at.x(), at.y() + 1.05, 3.0, letter, {{"text-anchor", "middle"}, {"font-weight", "bold"}});
+  }
 }
 
 }  // namespace
 
-std::string typical_strokes_picture(StrokeStyle style) {
-  constexpr int rows = (typical_stroke_count + sheet_columns) / sheet_columns;  // one more cell, for the key
-  const double width = sheet_columns * cell_width + 2.0 * table_margin;
+std::string typical_strokes_font() {
+  std::string text = poster_title;
+  for (const TypicalStroke& type : typical_strokes()) text += type.name;
+  return chinese_font(text);
+}
+
+std::string typical_strokes_picture(StrokeStyle style, const std::string& font) {
   const std::string title = "The " + std::to_string(typical_stroke_count) + " typical strokes";
   pugi::xml_document document;
-  pugi::xml_node root = svg::begin(document, width, table_top + rows * cell_height, "px", title);
-  add_text(root, 0.5 * width, 38.0, 22.0, title, {{"text-anchor", "middle"}, {"fill", ink}});
+  pugi::xml_node root = svg::begin(document, poster_width, poster_height, "mm", title);
+  root.attribute("font-family") = latin_fonts;
+  root.append_attribute("fill") = poster_ink;
+  double title_x = first_column;
+  if (!font.empty()) {
+    add_text(root, title_x, 15.5, 8.0, poster_title, {{"font-family", families(font)}, {"xml:lang", "zh-Hans"}});
+    title_x += svg::text_width(poster_title, 8.0) + 4.0;
+  }
+  add_text(root, title_x, 15.5, 5.5, title, {{"fill", font.empty() ? poster_ink : quiet_grey}});
 
-  const auto cell = [](int index) {
-    return Point(table_margin + (index % sheet_columns) * cell_width + 0.5 * (cell_width - cell_em),
-                 table_top + (index / sheet_columns) * cell_height);
+  const auto corner = [](int index) {
+    return Point(first_column + column_step * (index % poster_columns), first_row + row_step * (index / poster_columns));
   };
   for (const TypicalStroke& type : typical_strokes()) {
-    pugi::xml_node group = add(root, "g", {{"class", "stroke"}, {"text-anchor", "middle"}, {"fill", ink}});
-    const Point corner = cell(type.id - 1);
-    draw_typical_stroke(group, type, style, corner.x(), corner.y());
+    draw_typical_stroke(add(root, "g", {{"class", "stroke"}}), type, style, font, corner(type.id - 1));
   }
-  const Point corner = cell(typical_stroke_count);
-  draw_key(add(root, "g", {{"class", "key"}, {"fill", ink}}), corner.x(), corner.y());
+  draw_key(add(root, "g", {{"class", "key"}}), corner(typical_stroke_count));
   return svg::to_string(document);
 }
 

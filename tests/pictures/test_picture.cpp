@@ -14,6 +14,8 @@
 #include <calligraphy/model/ink_outline.hpp>
 #include <calligraphy/model/stroke_polyline.hpp>
 #include <calligraphy/model/typical_ink.hpp>
+#include <calligraphy/pictures/chinese_font.hpp>
+#include <calligraphy/pictures/pdf.hpp>
 #include <calligraphy/pictures/picture.hpp>
 #include <calligraphy/practice/session.hpp>
 
@@ -603,29 +605,94 @@ TEST_CASE("an invalid page, an index beyond it or scores of other writing are an
   CHECK_THROWS_AS(page_picture(page, {}, {}, "title"), ValueError);
 }
 
-TEST_CASE("the sheet of typical strokes has a group for each of the 39", "[practice]") {
-  const auto document = xml(typical_strokes_picture());
+TEST_CASE("the poster of typical strokes has a cell with names, marks and points for each of the 39", "[practice]") {
+  const auto document = xml(typical_strokes_picture(StrokeStyle::ink, "A font"));
   const auto groups = all(document, "//g[@class='stroke']");
   REQUIRE(groups.size() == typical_stroke_count);
   for (const TypicalStroke& type : typical_strokes()) {
     CAPTURE(type.id);
     const pugi::xml_node group = groups[static_cast<std::size_t>(type.id - 1)];
-    std::string text;
-    int features = 0, controls = 0, curves = 0;
-    for (const auto& node : group.children("text")) text += std::string(node.text().get()) + "|";
+    const auto text = [&](const char* of) {
+      return std::string(group.find_child_by_attribute("text", "class", of).text().get());
+    };
+    CHECK(text("number") == std::to_string(type.id));
+    CHECK(text("name") == type.name);
+    CHECK(text("pinyin") == type.pinyin);
+    CHECK(text("code") == std::string(type.code) + " · " + std::string(type.elements));
+
+    // Every point where its coordinates say, in the square of this cell.
+    const pugi::xml_node frame = group.find_child_by_attribute("rect", "class", "frame");
+    const double em = frame.attribute("width").as_double();
+    const auto place = [&](const auto& point) {
+      return Point(frame.attribute("x").as_double() + em * point[0],
+                   frame.attribute("y").as_double() + em * (1.0 - point[1]));
+    };
+    std::vector<Point> drawn;
     for (const auto& node : group.children("circle")) {
-      features += node.attribute("class").value() == std::string("feature");
-      controls += node.attribute("class").value() == std::string("control");
+      const Point at(node.attribute("cx").as_double(), node.attribute("cy").as_double());
+      const bool is_start = node.attribute("class").value() == std::string("start");
+      if (is_start) CHECK((at - place(type.shape[0])).norm() < 0.002);
+      if (!is_start) drawn.push_back(at);
     }
-    for (const auto& node : group.children("path")) curves += !node.attribute("stroke-dasharray").empty();
-    CHECK(text.find(std::to_string(type.id) + "  " + std::string(type.name) + "|") == 0);
-    CHECK(text.find(std::string(type.pinyin) + "|") != std::string::npos);
-    CHECK(text.find(std::string(type.code)) != std::string::npos);
-    CHECK(text.find(std::string(type.elements) + "|") != std::string::npos);
-    CHECK(features == feature_point_count(type.elements));
-    CHECK(features + controls == control_point_count(type.elements));
-    CHECK(curves == std::count(type.elements.begin(), type.elements.end(), 'C'));
+    CHECK(drawn.size() == static_cast<std::size_t>(control_point_count(type.elements)));
+    for (const auto& point : type.shape) {
+      CHECK(std::any_of(drawn.begin(), drawn.end(), [&](const Point& at) { return (at - place(point)).norm() < 0.002; }));
+    }
+
+    // An arrow head on every element, along it.
+    const auto path = group.find_child_by_attribute("path", "class", "path");
+    std::vector<Point> heads, directions;
+    for (const auto& node : group.children("path")) {
+      if (node.attribute("class").value() != std::string("direction")) continue;
+      const std::vector<Point> head = points(node);
+      heads.push_back(0.5 * (head[0] + 0.5 * (head[1] + head[3])));
+      directions.push_back(head[0] - head[2]);
+    }
+    REQUIRE(heads.size() == type.elements.size());
+    const std::vector<int> features = feature_points(type.elements);
+    for (std::size_t i = 0; i < heads.size(); ++i) {
+      const Point from = place(type.shape[static_cast<std::size_t>(features[i])]);
+      const Point to = place(type.shape[static_cast<std::size_t>(features[i + 1])]);
+      CHECK(directions[i].normalized().dot((to - from).normalized()) > 0.9);
+      const bool is_line = type.elements[i] == static_cast<char>(ElementKind::line);
+      if (is_line) CHECK((heads[i] - 0.5 * (from + to)).norm() < 0.002);
+      CHECK(is_filled(group.child("g").child("path"), heads[i]));
+    }
+    CHECK(points(path).size() == type.shape.size());
   }
+}
+
+TEST_CASE("the poster of typical strokes is an A3 page, and everything is on it", "[practice]") {
+  for (const std::string& font : {std::string(), std::string("A font")}) {
+    const auto document = xml(typical_strokes_picture(StrokeStyle::ink, font));
+    const pugi::xml_node root = document.child("svg");
+    CHECK(std::string(root.attribute("width").value()) == "420mm");
+    CHECK(std::string(root.attribute("height").value()) == "297mm");
+    CHECK(std::string(root.attribute("viewBox").value()) == "0 0 420 297");
+    for (const auto& node : all(document, "//text")) {
+      CAPTURE(node.text().get());
+      const double size = node.attribute("font-size").as_double(), x = node.attribute("x").as_double();
+      CHECK(node.attribute("y").as_double() < 297.0 - 5.0);
+      CHECK(x > 10.0);
+      CHECK(x + 0.5 * size * static_cast<double>(decode_utf8(node.text().get()).size()) < 420.0 - 5.0);
+    }
+  }
+}
+
+TEST_CASE("without a font, no typical stroke has its name in Chinese", "[practice]") {
+  const std::string picture = typical_strokes_picture(StrokeStyle::ink, "");
+  const std::u32string codes = decode_utf8(picture);
+  CHECK(std::none_of(codes.begin(), codes.end(), [](char32_t code) { return code >= 0x2e80; }));
+  const auto document = xml(picture);
+  CHECK(all(document, "//text[@class='pinyin']").size() == typical_stroke_count);
+}
+
+TEST_CASE("names in Chinese ask for the font first, whatever its name", "[practice]") {
+  const auto document = xml(typical_strokes_picture(StrokeStyle::ink, "Ann's <Kai> \\ 1"));
+  for (const auto& node : all(document, "//text[@class='name']")) {
+    CHECK(std::string(node.attribute("font-family").value()).rfind("'Ann\\'s <Kai> \\\\ 1', ", 0) == 0);
+  }
+  CHECK_THROWS_AS(typical_strokes_picture(StrokeStyle::ink, "\xff"), FormatError);
 }
 
 TEST_CASE("a typical stroke is drawn as ink, or as a line of one width", "[practice]") {
@@ -635,8 +702,33 @@ TEST_CASE("a typical stroke is drawn as ink, or as a line of one width", "[pract
     REQUIRE(groups.size() == typical_stroke_count);
     for (const auto& group : groups) {
       CHECK(paths(group) == 1);
-      CHECK((group.attribute("fill").value() == std::string("#a9c4f5")) == (style == StrokeStyle::ink));
-      CHECK((group.attribute("stroke").value() == std::string("#a9c4f5")) == (style == StrokeStyle::lines));
+      CHECK((group.attribute("fill").value() == std::string("none")) == (style == StrokeStyle::lines));
+      CHECK((group.attribute("stroke-width").as_double() > 0.0) == (style == StrokeStyle::lines));
     }
   }
+}
+
+TEST_CASE("a font for Chinese has every character of the text", "[practice]") {
+  CHECK(chinese_font("\u6c49\U0010fffd").empty());  // for private use: in no font
+  CHECK(chinese_font("\u6c49").empty() == typical_strokes_font().empty());
+  CHECK_THROWS_AS(chinese_font("\xff"), FormatError);
+}
+
+TEST_CASE("a picture becomes a PDF of one page, of its size and the same each time", "[practice]") {
+  const std::string picture =
+      R"(<svg xmlns="http://www.w3.org/2000/svg" width="2in" height="1in"><rect width="9" height="9"/></svg>)";
+  if (!pdf_available()) {
+    CHECK_THROWS_AS(pdf_of_svg(picture), Error);
+    return;
+  }
+  const std::string pdf = pdf_of_svg(picture);
+  CHECK(pdf.rfind("%PDF-", 0) == 0);
+  CHECK(pdf.find("/Count 1") != std::string::npos);
+  const std::size_t box = pdf.find("/MediaBox");
+  REQUIRE(box != std::string::npos);
+  CHECK(pdf.substr(box, 24) == "/MediaBox [ 0 0 144 72 ]");
+  CHECK(pdf.find("/CreationDate") == std::string::npos);
+  CHECK(pdf_of_svg(picture) == pdf);
+  CHECK_THROWS_AS(pdf_of_svg("<svg"), FormatError);
+  CHECK_THROWS_AS(pdf_of_svg(R"(<svg xmlns="http://www.w3.org/2000/svg" width="100%" height="0"/>)"), FormatError);
 }

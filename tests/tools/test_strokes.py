@@ -1,25 +1,54 @@
 import os
+import re
+import subprocess
 import xml.etree.ElementTree as xml
 
 from program import ProgramTest
 
 
 class Strokes(ProgramTest):
-    def test_all_39_typical_strokes_are_drawn_with_id_and_name(self):
-        self.run_program("strokes", "--out", "strokes.svg")
+    def texts(self, svg):
+        root = xml.fromstring(svg)
+        return [element.text for element in root.iter("{http://www.w3.org/2000/svg}text")]
+
+    def no_chinese_font(self):
+        """An environment without any font."""
+        (self.directory / "fonts.conf").write_text("<fontconfig/>")
+        return {"FONTCONFIG_FILE": str(self.directory / "fonts.conf")}
+
+    def test_all_39_typical_strokes_are_drawn_with_number_and_names(self):
+        done = self.run_program("strokes", "--out", "strokes.svg")
         self.assertEqual(self.files(), ["strokes.svg"])
-        root = xml.parse(self.directory / "strokes.svg").getroot()
-        texts = " ".join("".join(element.itertext()) for element in root.iter("{http://www.w3.org/2000/svg}text"))
-        for id in range(1, 40):
-            self.assertRegex(texts, rf"\b{id}\b")
-        for name in ("横", "竖", "横折弯钩"):
-            self.assertIn(name, texts)
+        texts = self.texts((self.directory / "strokes.svg").read_bytes())
+        self.assertLessEqual({str(id) for id in range(1, 40)} | {"héng", "shù", "héngzhéwāngōu"}, set(texts))
+        if "Chinese" not in done.stderr:
+            self.assertEqual(done.stderr, "")
+            self.assertLessEqual({"横", "竖", "横折弯钩"}, set(texts))
+
+    def test_without_a_chinese_font_names_are_latin_and_that_is_told_once(self):
+        done = self.run_program("strokes", "-o", "-", environment=self.no_chinese_font())
+        self.assertRegex(done.stderr, r"\Acalligraphy: [^\n]*Chinese[^\n]*font[^\n]*\n\Z")
+        self.assertNotRegex(done.stdout, "[\u2e80-\uffff]")
+        self.assertIn("héngzhéwāngōu", self.texts(done.stdout))
 
     def test_strokes_are_filled_as_ink_or_drawn_as_lines(self):
         ink = self.run_program("strokes", "-o", "-").stdout
         lines = self.run_program("strokes", "-o", "-", "--lines").stdout
-        self.assertNotIn('stroke-width="9"', ink)
-        self.assertEqual(lines.count('stroke-width="9"'), 39)
+        self.assertNotIn('stroke-width="2.5"', ink)
+        self.assertEqual(lines.count('stroke-width="2.5"'), 39)
+
+    def test_the_ending_pdf_makes_a_pdf_the_same_each_time(self):
+        program = os.environ["CALLIGRAPHY_PROGRAM"]
+        done = subprocess.run([program, "strokes", "-o", "strokes.PDF"], cwd=self.directory, capture_output=True)
+        if b"librsvg" in done.stderr:
+            self.assertEqual((done.returncode, self.files()), (1, []))
+            self.skipTest("built without librsvg")
+        first = (self.directory / "strokes.PDF").read_bytes()
+        self.assertRegex(first, rb"\A%PDF-")
+        self.assertRegex(first, rb"/MediaBox \[ 0 0 1190\.55\d* 841\.8[89]\d* \]")  # A3 in points
+        self.assertEqual(len(re.findall(rb"/Type /Page\b", first)), 1)
+        self.run_program("strokes", "-o", "strokes.pdf")
+        self.assertEqual((self.directory / "strokes.pdf").read_bytes(), first)
 
     def test_standard_output_takes_the_place_of_a_file(self):
         self.run_program("strokes", "-o", "strokes.svg")

@@ -32,7 +32,13 @@ std::string character_picture(const PracticePage& page, const Recording& recordi
 std::string page_picture(const PracticePage& page, const Recording& recording, std::span<const CharacterScore> scores,
                          const std::string& title, StrokeStyle style = StrokeStyle::ink, const Language& language = {});
 
-/// Draws all typical strokes with ID, names, elements, control points and feature points (Figs. 7 and 9 to 12).
-std::string typical_strokes_picture(StrokeStyle style = StrokeStyle::ink);
+/// The family of an installed font that has the Chinese names of the typical strokes; empty as by chinese_font().
+std::string typical_strokes_font();
+
+/// Draws a poster of all typical strokes (A3, landscape) with ID, names, code, elements, path, feature points and
+/// control points (Figs. 7 and 9 to 12). The font is that of the Chinese names, which are left out if it is empty; in a
+/// viewer that lacks it, common ones take its place. @throws FormatError when the font's name is not UTF-8
+std::string typical_strokes_picture(StrokeStyle style = StrokeStyle::ink,
+                                    const std::string& font = typical_strokes_font());
 
 }  // namespace calligraphy
