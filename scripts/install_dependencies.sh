@@ -8,8 +8,9 @@
 #   web     only those of web.sh
 set -euo pipefail
 
-packages=(cmake g++ gnuplot-nox libarchive-dev libcli11-dev libeigen3-dev libfmt-dev libhidapi-dev
-          libpugixml-dev libspdlog-dev libusb-1.0-0-dev libutfcpp-dev ninja-build nlohmann-json3-dev pkg-config zlib1g-dev)
+packages=(cmake g++ gnuplot-nox libarchive-dev libcli11-dev libeigen3-dev libfmt-dev libfontconfig-dev libhidapi-dev
+          libpugixml-dev librsvg2-dev libspdlog-dev libusb-1.0-0-dev libutfcpp-dev ninja-build nlohmann-json3-dev
+          pkg-config zlib1g-dev)
 if [[ ${1:-} == python ]]; then
   packages+=(python3 python3-dev python3-venv)
 elif [[ ${1:-} == tests || ${1:-} == full ]]; then

@@ -31,22 +31,17 @@ bool names_pdf(const std::string& out) {
   return ending == ".pdf";
 }
 
-std::string font_of_names() {
-  std::string font = typical_strokes_font();
-  if (font.empty()) {
-    spdlog::warn(fonts_can_be_found()
-                     ? "no installed font has the Chinese names, which are left out: install one, such as the package "
-                       "fonts-noto-cjk or fonts-wqy-microhei"
-                     : "the Chinese names are left out, because this build cannot find a font: fontconfig was missing");
-  }
-  return font;
-}
-
 void draw_strokes(const StrokesArguments& options) {
   const bool pdf = names_pdf(options.out);
   if (pdf && !pdf_available()) throw Error(options.out + ": PDF needs librsvg, without which this program was built");
-  const std::string picture = typical_strokes_picture(options.style, font_of_names());
+  const std::string font = typical_strokes_font();
+  const std::string picture = typical_strokes_picture(options.style, font);
   write_output(options.out, pdf ? pdf_of_svg(picture) : picture);
+  if (!font.empty()) return;
+  spdlog::warn(fonts_can_be_found()
+                   ? "no installed font has the Chinese names, which are left out: install one, such as the package "
+                     "fonts-noto-cjk or fonts-wqy-microhei"
+                   : "the Chinese names are left out, because this build cannot find a font: fontconfig was missing");
 }
 
 }  // namespace

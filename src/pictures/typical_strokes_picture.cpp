@@ -195,7 +195,8 @@ std::string typical_strokes_picture(StrokeStyle style, const std::string& font) 
   add_text(root, title_x, 15.5, 5.5, title, {{"fill", font.empty() ? poster_ink : quiet_grey}});
 
   const auto corner = [](int index) {
-    return Point(first_column + column_step * (index % poster_columns), first_row + row_step * (index / poster_columns));
+    return Point(first_column + column_step * (index % poster_columns),
+                 first_row + row_step * (index / poster_columns));
   };
   for (const TypicalStroke& type : typical_strokes()) {
     draw_typical_stroke(add(root, "g", {{"class", "stroke"}}), type, style, font, corner(type.id - 1));

@@ -34,8 +34,8 @@ foreach(library ${linked})
     message(FATAL_ERROR "${PROGRAM} is linked with ${name}")
   endif()
 endforeach()
-foreach(pair archive=LibArchive fmt=fmt fontconfig=Fontconfig hidapi=PkgConfig pugixml=pugixml rsvg=LibRsvg spdlog=spdlog
-        usb=PkgConfig z=ZLIB)
+foreach(pair archive=LibArchive fmt=fmt fontconfig=Fontconfig hidapi=PkgConfig pugixml=pugixml rsvg=LibRsvg
+             spdlog=spdlog usb=PkgConfig z=ZLIB)
   string(REGEX MATCH "(.+)=(.+)" pair ${pair})
   if(NOT CMAKE_MATCH_2 IN_LIST NEEDS)
     set(library ${CMAKE_MATCH_1})

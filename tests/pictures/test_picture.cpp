@@ -636,7 +636,8 @@ TEST_CASE("the poster of typical strokes has a cell with names, marks and points
     }
     CHECK(drawn.size() == static_cast<std::size_t>(control_point_count(type.elements)));
     for (const auto& point : type.shape) {
-      CHECK(std::any_of(drawn.begin(), drawn.end(), [&](const Point& at) { return (at - place(point)).norm() < 0.002; }));
+      const auto is_there = [&](const Point& at) { return (at - place(point)).norm() < 0.002; };
+      CHECK(std::any_of(drawn.begin(), drawn.end(), is_there));
     }
 
     // An arrow head on every element, along it.
