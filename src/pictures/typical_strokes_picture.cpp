@@ -67,8 +67,8 @@ void draw_polygon(pugi::xml_node parent, std::span<const Point> points) {
                        {"stroke-width", "0.22"}, {"stroke-dasharray", "0.9 0.6"}});
 }
 
-/// An arrow head about a point of the path, no longer than `room` allows.
-void draw_arrow(pugi::xml_node parent, const Point& at, const Point& direction, double room) {
+/// An arrow head about a point of the path, at most `room` long.
+void draw_direction(pugi::xml_node parent, const Point& at, const Point& direction, double room) {
   const double length = std::min(head_length, room);
   const Point ahead = length * direction.normalized();
   const Point side = 0.42 * Point(-ahead.y(), ahead.x());
@@ -77,13 +77,13 @@ void draw_arrow(pugi::xml_node parent, const Point& at, const Point& direction, 
   add(parent, "path", {{"class", "direction"}, {"d", svg::polygon_path(head)}, {"fill", path_red}});
 }
 
-void draw_path(pugi::xml_node parent, const std::string& path) {
+void draw_middle_line(pugi::xml_node parent, const std::string& path) {
   add(parent, "path", {{"class", "path"}, {"d", path}, {"fill", "none"}, {"stroke", path_red}, {"stroke-width", "0.32"},
                        {"stroke-linejoin", "round"}});
 }
 
 /// A square with the lines of 米字格, by which pupils place a character.
-void draw_square(pugi::xml_node parent, const Point& corner) {
+void draw_cell_square(pugi::xml_node parent, const Point& corner) {
   const auto line = [&](double x1, double y1, double x2, double y2) {
     const std::vector<Point> ends = {corner + cell_em * Point(x1, y1), corner + cell_em * Point(x2, y2)};
     return svg::line_path(ends);
@@ -104,17 +104,17 @@ void draw_marks(pugi::xml_node parent, const Stroke& stroke, const svg::View& vi
   for (std::size_t i = 0; i < stroke.elements.size(); ++i) {
     if (is_curve(i)) draw_polygon(parent, std::span(points).subspan(static_cast<std::size_t>(features[i]), 4));
   }
-  draw_path(parent, svg::stroke_path(stroke, view));
+  draw_middle_line(parent, svg::stroke_path(stroke, view));
   for (std::size_t i = 0; i < stroke.elements.size(); ++i) {
     const auto first = static_cast<std::size_t>(features[i]), last = static_cast<std::size_t>(features[i + 1]);
-    const double room = 0.7 * (points[last] - points[first]).norm();
+    const double chord = (points[last] - points[first]).norm();
     if (is_curve(i)) {
       const Bezier<3> curve{{points[first], points[first + 1], points[first + 2], points[last]}};
-      draw_arrow(parent, curve.point(0.5), curve.derivative(0.5), room);
+      draw_direction(parent, curve.point(0.5), curve.derivative(0.5), 0.45 * chord);
       draw_control_point(parent, points[first + 1]);
       draw_control_point(parent, points[first + 2]);
     } else {
-      draw_arrow(parent, 0.5 * (points[first] + points[last]), points[last] - points[first], room);
+      draw_direction(parent, 0.5 * (points[first] + points[last]), points[last] - points[first], 0.7 * chord);
     }
   }
   draw_start(parent, points[0]);
@@ -138,7 +138,7 @@ void write_names(pugi::xml_node parent, const TypicalStroke& type, const std::st
 
 void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, StrokeStyle style, const std::string& font,
                          const Point& corner) {
-  draw_square(parent, corner);
+  draw_cell_square(parent, corner);
   std::vector<Point> em_points;
   for (const auto& point : type.shape) em_points.emplace_back(point[0], point[1]);
   const svg::View view{corner + Point(0.0, cell_em), cell_em};
@@ -162,8 +162,8 @@ void draw_key(pugi::xml_node parent, const Point& corner) {
   };
   draw_start(parent, line("start"));
   const Point direction = line("path, direction");
-  draw_path(parent, svg::line_path(across(direction)));
-  draw_arrow(parent, direction, Point(1.0, 0.0), head_length);
+  draw_middle_line(parent, svg::line_path(across(direction)));
+  draw_direction(parent, direction, Point(1.0, 0.0), head_length);
   draw_feature_point(parent, line("feature point"));
   draw_control_point(parent, line("control point"));
   draw_polygon(parent, across(line("control polygon")));
