@@ -10,6 +10,7 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/pictures/error_plot.hpp>
 #include <calligraphy/pictures/picture.hpp>
 #include <calligraphy/pictures/plot.hpp>
 #include <calligraphy/practice/recording_file.hpp>
@@ -100,6 +101,15 @@ void draw_page(const Recording& recording, const PageInRun& where, const Picture
   draw(fmt::format("page-{}-{}-writing.svg", where.page, to_string(setup.mode)), [&] {
     return page_picture(setup.page, recording, scores, title(text), options.style, options.language);
   });
+}
+
+void draw_errors(const std::vector<Result>& results, const std::string& device, const PictureOptions& options,
+                 OutputDirectory& out, std::vector<std::string>& warnings) {
+  if (!options.has_plots || options.is_stopped()) return;
+  const ErrorsByCharacter errors = errors_by_character(results);
+  if (errors.all.reduction.draws < least_runs) return;
+  const std::string title = options.language.text("write.error", {{"device", device}});
+  try_to_write("error-by-character.svg", [&] { return error_plot(errors, title, options.language); }, out, warnings);
 }
 
 bool can_plot(std::vector<std::string>& warnings) {

@@ -45,6 +45,11 @@ struct PictureOptions {
 void draw_page(const Recording& recording, const PageInRun& where, const PictureOptions& options, OutputDirectory& out,
                std::vector<std::string>& warnings);
 
+/// Draws the errors of a run without and with force, "error-by-character.svg", if there are enough pairs of runs to show
+/// an effect. Failing is told likewise.
+void draw_errors(const std::vector<Result>& results, const std::string& device, const PictureOptions& options,
+                 OutputDirectory& out, std::vector<std::string>& warnings);
+
 /// Writes what a function makes. If it fails, that is told and added to `warnings`: nothing else depends on it.
 void try_to_write(const std::string& name, const std::function<std::string()>& make, OutputDirectory& out,
                   std::vector<std::string>& warnings);

@@ -37,9 +37,6 @@ double mean(const std::vector<Result>& results, std::size_t begin, std::size_t e
   return sum / count;
 }
 
-/// Fewer independent pairs of runs vary too much to show an effect of force.
-constexpr std::size_t least_runs = 10;
-
 /// More are not printed.
 constexpr std::size_t most_remarks = 20;
 
@@ -67,19 +64,32 @@ std::vector<Pair> pairs(const std::vector<Result>& results) {
   return both;
 }
 
+/// An aborted character has no meaningful error or time.
+bool is_complete(const Pair& pair) { return is_complete(*pair.vision) && is_complete(*pair.force); }
+
+MeanInterval interval_of(const std::vector<Pair>& both, const std::function<double(const Pair&)>& quantity) {
+  std::vector<DrawnValue> values;
+  for (const Pair& pair : both) values.push_back({quantity(pair), pair.vision->seed.value_or(0)});
+  return mean_interval(values);
+}
+
+double rms_error(const Result& result) { return result.score.rms_error; }
+
+PairedErrors paired_errors(char32_t character, const std::vector<Pair>& both) {
+  return {character, interval_of(both, [](const Pair& pair) { return rms_error(*pair.vision); }),
+          interval_of(both, [](const Pair& pair) { return rms_error(*pair.force); }),
+          interval_of(both, [](const Pair& pair) { return rms_error(*pair.vision) - rms_error(*pair.force); })};
+}
+
 std::string name_of(FeedbackMode mode, const Language& language) {
   return language.text(std::string("mode.") + to_string(mode));
 }
 
 std::string reduction(const std::string& what, const char* unit, const std::vector<Pair>& both,
                       const Quantity& quantity, const Language& language) {
-  double vision = 0.0;
-  std::vector<DrawnValue> reduced;
-  for (const Pair& pair : both) {
-    vision += quantity(*pair.vision) / static_cast<double>(both.size());
-    reduced.push_back({quantity(*pair.vision) - quantity(*pair.force), pair.vision->seed.value_or(0)});
-  }
-  const MeanInterval interval = mean_interval(reduced);
+  const double vision = interval_of(both, [&](const Pair& pair) { return quantity(*pair.vision); }).mean;
+  const MeanInterval interval =
+      interval_of(both, [&](const Pair& pair) { return quantity(*pair.vision) - quantity(*pair.force); });
   const std::string relative = vision > 0.0 ? fmt::format(" ({:.1f} %)", 100.0 * interval.mean / vision) : "";
   return fmt::format("{:<10} {}\n", what,
                      language.text("write.reduced", {{"value", fixed(interval.mean, 3)},
@@ -87,6 +97,18 @@ std::string reduction(const std::string& what, const char* unit, const std::vect
                                                      {"relative", relative},
                                                      {"low", fixed(interval.mean - interval.half_width, 3)},
                                                      {"high", fixed(interval.mean + interval.half_width, 3)}}));
+}
+
+Json errors_json(const PairedErrors& errors) {
+  const auto interval = [](const MeanInterval& value) {  // null: not known
+    return Json{{"mean_mm", value.mean * millimetres}, {"half_width_mm", value.half_width * millimetres}};
+  };
+  return {{"character", errors.character == 0 ? Json() : Json(encode_utf8(errors.character))},
+          {"pairs", errors.reduction.values},
+          {"runs", errors.reduction.draws},
+          {"vision", interval(errors.vision)},
+          {"force", interval(errors.force)},
+          {"reduction", interval(errors.reduction)}};
 }
 
 /// The results from `begin` on that differ only in their repetition end here.
@@ -269,19 +291,41 @@ nlohmann::ordered_json json(const Summary& summary) {
                     {"fidelity", score.fidelity},
                     {"remarks", remarks}});
   }
-  const Json all = {{"repetitions_requested", summary.repetitions},
+  Json all = {{"repetitions_requested", summary.repetitions},
                     {"interrupted", summary.interrupted},
                     {"warnings", summary.warnings},
                     {"results", list}};
+  const ErrorsByCharacter errors = errors_by_character(summary.results);
+  if (errors.characters.empty()) return all;
+  Json& by_character = all["error_by_character"] = Json::array();
+  for (const PairedErrors& each : errors.characters) by_character.push_back(errors_json(each));
+  by_character.push_back(errors_json(errors.all));  // last, of which the character is null
   return all;
+}
+
+ErrorsByCharacter errors_by_character(const std::vector<Result>& results) {
+  ErrorsByCharacter errors;
+  std::vector<Pair> complete;
+  std::map<char32_t, std::vector<Pair>> of;
+  std::vector<char32_t> characters;  // as they stand in the text
+  for (const Pair& pair : pairs(results)) {
+    const char32_t character = pair.vision->score.character;
+    if (!of.contains(character)) characters.push_back(character);
+    std::vector<Pair>& own = of[character];
+    if (!is_complete(pair)) continue;
+    own.push_back(pair);
+    complete.push_back(pair);
+  }
+  for (const char32_t character : characters) errors.characters.push_back(paired_errors(character, of[character]));
+  errors.all = paired_errors(0, complete);
+  return errors;
 }
 
 std::string reductions(const std::vector<Result>& results, const Language& language) {
   std::vector<Pair> both = pairs(results);
   if (both.empty()) return "";
   const std::size_t all = both.size();
-  // An aborted character has no meaningful error or time.
-  std::erase_if(both, [](const Pair& pair) { return !is_complete(*pair.vision) || !is_complete(*pair.force); });
+  std::erase_if(both, [](const Pair& pair) { return !is_complete(pair); });
   std::set<std::uint64_t> runs;
   for (const Pair& pair : both) runs.insert(pair.vision->seed.value_or(0));
   const auto of_pairs = [&language](std::size_t count, std::string_view key) {
@@ -293,9 +337,9 @@ std::string reductions(const std::vector<Result>& results, const Language& langu
   } else if (runs.size() < least_runs) {
     text = of_pairs(runs.size(), "write.few_pairs");
   } else {
-    const auto rms_error = [](const Result& r) { return r.score.rms_error * millimetres; };
+    const auto error = [](const Result& r) { return rms_error(r) * millimetres; };
     const auto time = [](const Result& r) { return r.score.time; };
-    text = reduction(language.text("write.rms_error"), "mm", both, rms_error, language) +
+    text = reduction(language.text("write.rms_error"), "mm", both, error, language) +
            reduction(language.text("write.time"), "s", both, time, language) +
            language.text("write.paired", {{"characters", std::to_string(both.size())},
                                           {"pairs", std::to_string(runs.size())}}) +

@@ -1,6 +1,7 @@
 // Report of `calligraphy write`, as a table and as JSON.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <calligraphy/judge/language.hpp>
+#include <calligraphy/pictures/error_plot.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 
@@ -40,14 +42,20 @@ double percentile(std::vector<float>& values, double share);
 std::string table(const Summary& summary, const Language& language);
 
 /// An object: how many repetitions were asked for, whether the run was interrupted, the warnings, and a list with one
-/// object per result.
+/// object per result; where characters were written in both modes, also their errors in pairs.
 nlohmann::ordered_json json(const Summary& summary);
 
-/// Reduction of error and time with force: mean and 95 % interval over the pairs of character and repetition that are
-/// complete in both modes; with fewer than 10 pairs of runs, that they are too few. Empty without a pair.
+/// Fewer independent pairs of runs vary too much to show an effect of force.
+inline constexpr std::size_t least_runs = 10;
+
+/// RMS errors without and with force over the pairs of character and repetition that are complete in both modes.
 ///
 /// Clustered by run, that is by page and seed: its characters draw their own beliefs, but one renderer renders them,
 /// whose assistance and thermal budget carry over, and a run that stops early loses all that follow.
+ErrorsByCharacter errors_by_character(const std::vector<Result>& results);
+
+/// Reduction of error and time with force: mean and 95 % interval over the same pairs; with fewer than `least_runs`
+/// pairs of runs, that they are too few. Empty without a pair.
 std::string reductions(const std::vector<Result>& results, const Language& language);
 
 /// All remarks, a line each; of more than 20, how many there are. Empty without any.

@@ -303,6 +303,7 @@ class WriteRun {
     for (const auto& [name, where] : drawn_) {
       draw_page(open_recording(out.reserve(name)).recording, where, options, out, summary_.warnings);
     }
+    draw_errors(summary_.results, session_.device.model, options, out, summary_.warnings);
   }
 
   void report() const {
@@ -391,7 +392,7 @@ void add_write(CLI::App& program) {
       ->add_option(
           "--repeat", options->repeat,
           "Number of repetitions, each with beliefs of its own; pictures and recordings are of the first. An effect of "
-          "force is reported from 10 on")
+          "force is reported from 10 on, and drawn in error-by-character.svg")
       ->check(integer(1, 100000))
       ->type_name("N")
       ->capture_default_str();

@@ -42,12 +42,6 @@ constexpr std::array bounds = {
     Bound{&StabilityLine::approximate, "linewidth 1.6 linecolor rgb '#d55e00' dashtype 2", "stable, Gil et al. 2009"},
     Bound{&StabilityLine::passive, "linewidth 1.6 linecolor rgb '#222222' dashtype 3", "passive"}};
 
-std::string quoted(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\'' || c == '\\' || c < ' '; }, ' ');
-  return "'" + text + "'";
-}
-
 /// Adjoining cells of one kind in a column as one rectangle, a line each: centre, corners.
 std::string rectangles(const StabilitySweep& sweep, const Kind& kind, const std::vector<double>& stiffnesses) {
   const double half = std::sqrt(stiffnesses[1] / stiffnesses[0]);
@@ -88,7 +82,7 @@ std::string steps(const StabilitySweep& sweep, double StabilityLine::*bound) {
 std::string ticks(const StabilitySweep& sweep) {
   std::string text;
   for (std::size_t i = 0; i < sweep.values.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + quoted(sweep.values[i]) + " " + std::to_string(i);
+    text += (i == 0 ? "" : ", ") + gnuplot::quoted(sweep.values[i]) + " " + std::to_string(i);
   }
   return "set xtics (" + text + ")\nset xrange [-0.5:" + number_text(static_cast<double>(sweep.lines.size()) - 0.5) +
          "]\n";
@@ -111,7 +105,7 @@ std::string panel(const StabilitySweep& sweep, std::size_t index, const std::vec
     const std::string block = "$data" + std::to_string(index) + "_" + std::to_string(plots.size());
     // gnuplot refuses a series without points: one outside the range stands for it in the legend.
     text += block + " << END\n" + (data.empty() ? "-9 1 -9 -9 1 1\n" : data) + "END\n";
-    plots += (plots.empty() ? "" : ", ") + block + " " + drawn + (index == 0 ? " title " + quoted(title) : " notitle");
+    plots += (plots.empty() ? "" : ", ") + block + " " + drawn + (index == 0 ? " title " + gnuplot::quoted(title) : " notitle");
   };
   for (const Kind& kind : kinds) {
     add(rectangles(sweep, kind, stiffnesses),
@@ -121,7 +115,7 @@ std::string panel(const StabilitySweep& sweep, std::size_t index, const std::vec
   for (const Bound& bound : bounds) {
     add(steps(sweep, bound.value), std::string("using 1:2 with lines ") + bound.style, bound.title);
   }
-  return text + ticks(sweep) + "set xlabel " + quoted(sweep.label) + "\n" +
+  return text + ticks(sweep) + "set xlabel " + gnuplot::quoted(sweep.label) + "\n" +
          (index == 0 ? "set key at screen 0.5, 0.99 center top maxrows 3 samplen 2 Left reverse\n" : "unset key\n") +
          (index % panel_columns == 0 ? "set format y '%.0s%c'\nset ylabel 'stiffness K [N/m]'\n"
                                      : "set format y ''\nunset ylabel\n") +

@@ -153,13 +153,6 @@ std::string y_range(const Range& range) {
   return "set yrange [" + number_text(range.low) + ":" + number_text(range.high) + "]\n";
 }
 
-/// The text of a key as gnuplot takes it.
-std::string quoted(std::string_view key, const Language& language) {
-  std::string quoted = "'";
-  for (const char each : language.text(key)) quoted += each == '\'' ? std::string("''") : std::string(1, each);
-  return quoted + "'";
-}
-
 /// Only numbers and the words of the language vary: no text from the caller reaches gnuplot.
 std::string script(const Signals& signals, const Language& language) {
   const double begin = signals.time.front();
@@ -178,7 +171,7 @@ std::string script(const Signals& signals, const Language& language) {
       "set multiplot\n"
       "set tmargin at screen 0.865\nset bmargin at screen 0.515\n"
       "set format x ''\nset label " +
-      quoted("plot.in_plane_force", language) +
+      gnuplot::quoted(language.text("plot.in_plane_force")) +
       " at screen 0.022, graph 0.5 center rotate\n"
       "set key horizontal at screen 0.975, 0.942 right top samplen 2\n" +
       band_labels(signals.bands, begin, end) + y_range(in_plane) +
@@ -187,7 +180,7 @@ std::string script(const Signals& signals, const Language& language) {
       "$fy with lines linewidth 1.3 linecolor rgb '#d55e00' title 'Fy'\n"
       "unset label\nset tmargin at screen 0.47\nset bmargin at screen 0.12\n"
       "set format x '%g'\nset xlabel " +
-      quoted("plot.time", language) + "\nunset key\nset label " + quoted("plot.normal_force", language) +
+      gnuplot::quoted(language.text("plot.time")) + "\nunset key\nset label " + gnuplot::quoted(language.text("plot.normal_force")) +
       " at screen 0.022, graph 0.5 center rotate\n" + y_range(normal) +
       "plot $normal with lines linewidth 1.3 linecolor rgb '#222222' notitle\n"
       "unset multiplot\n";

@@ -159,6 +159,28 @@ class Write(ProgramTest):
         for word, value in ((words[2], mean), (words[-4], mean - half_width), (words[-2], mean + half_width)):
             self.assertAlmostEqual(float(word), value, delta=0.00051)
 
+    def test_errors_by_character_are_means_over_pairs_clustered_by_run(self):
+        if not shutil.which("gnuplot"):
+            self.skipTest("gnuplot is missing")
+        self.run_program("write", "十人十", "--out", "out", "--repeat", "10")
+        rows = {(row["position"], row["seed"], row["mode"]): row["rms_error_mm"] for row in self.summary()}
+        seeds = sorted({seed for _, seed, _ in rows})
+        found = self.record()["error_by_character"]
+        self.assertEqual([(each["character"], each["pairs"], each["runs"]) for each in found],
+                         [("十", 20, 10), ("人", 10, 10), (None, 30, 10)])
+        for each, positions in zip(found, ((1, 3), (2,), (1, 2, 3))):
+            for name, of_pair in (("vision", lambda vision, force: vision), ("force", lambda vision, force: force),
+                                  ("reduction", lambda vision, force: vision - force)):
+                runs = [statistics.mean(of_pair(rows[p, seed, "vision"], rows[p, seed, "force"]) for p in positions)
+                        for seed in seeds]
+                half_width = 2.262157 * statistics.stdev(runs) / math.sqrt(10)  # Student's t, 9 degrees of freedom
+                self.assertAlmostEqual(each[name]["mean_mm"], statistics.mean(runs), places=9)
+                self.assertAlmostEqual(each[name]["half_width_mm"], half_width, places=6)
+        words = [text.text for text in xml.parse(self.directory / "out/error-by-character.svg").getroot().findall(
+            "{http://www.w3.org/2000/svg}text")]
+        self.assertEqual([word for word in words if word in ("十", "人", "all", "10")],
+                         ["十", "10", "人", "10", "all", "10"])
+
     def test_what_was_not_written_has_no_error_and_the_means_say_over_how_much_they_are(self):
         done = self.run_program("write", "永北", "--out", "out", "--rules", "wang2006", "--mode", "force")
         written, none = self.summary()
@@ -176,6 +198,7 @@ class Write(ProgramTest):
             text = self.run_program("write", "一", "--out", repeat, "--repeat", repeat).stdout
             self.assertIn(words, text)
             self.assertNotIn("less with force", text)
+            self.assertFalse((self.directory / repeat / "error-by-character.svg").exists())
         text = self.run_program("write", "一", "--out", "out", "--mode", "force").stdout
         self.assertNotIn("too few", text, "there is nothing to compare")
 
