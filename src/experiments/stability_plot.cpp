@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -19,7 +18,7 @@ namespace {
 
 constexpr std::size_t panel_columns = 3;                                       // of panels
 constexpr double panels_left = 0.078, panels_right = 0.99, panel_gap = 0.025;  // of the panels, shares of the picture
-constexpr double panels_top = 0.88, bottom = 0.085, between = 0.115;
+constexpr double panels_top = 0.845, bottom = 0.085, between = 0.115;
 
 /// A kind of cell in the map.
 struct Kind {
@@ -27,10 +26,10 @@ struct Kind {
   const char* colour;
   const char* title;
 };
-constexpr std::array kinds = {Kind{true, true, "#9ecae1", "settles with and without control"},
-                              Kind{false, true, "#c7e9c0", "settles only with control"},
-                              Kind{true, false, "#fdae6b", "settles only without control"},
-                              Kind{false, false, "#efefef", "does not settle"}};
+constexpr std::array kinds = {Kind{true, true, "#74add1", "settles with and without control"},
+                              Kind{false, true, "#c2e5b6", "settles only with control"},
+                              Kind{true, false, "#d9722e", "settles only without control"},
+                              Kind{false, false, "#f4f4f4", "does not settle"}};
 
 struct Bound {
   double StabilityLine::*value;
@@ -105,7 +104,8 @@ std::string panel(const StabilitySweep& sweep, std::size_t index, const std::vec
     const std::string block = "$data" + std::to_string(index) + "_" + std::to_string(plots.size());
     // gnuplot refuses a series without points: one outside the range stands for it in the legend.
     text += block + " << END\n" + (data.empty() ? "-9 1 -9 -9 1 1\n" : data) + "END\n";
-    plots += (plots.empty() ? "" : ", ") + block + " " + drawn + (index == 0 ? " title " + gnuplot::quoted(title) : " notitle");
+    plots += (plots.empty() ? "" : ", ") + block + " " + drawn +
+             (index == 0 ? " title " + gnuplot::quoted(title) : " notitle");
   };
   for (const Kind& kind : kinds) {
     add(rectangles(sweep, kind, stiffnesses),
@@ -116,7 +116,7 @@ std::string panel(const StabilitySweep& sweep, std::size_t index, const std::vec
     add(steps(sweep, bound.value), std::string("using 1:2 with lines ") + bound.style, bound.title);
   }
   return text + ticks(sweep) + "set xlabel " + gnuplot::quoted(sweep.label) + "\n" +
-         (index == 0 ? "set key at screen 0.5, 0.99 center top maxrows 3 samplen 2 Left reverse\n" : "unset key\n") +
+         (index == 0 ? "set key at screen 0.53, 0.945 center top maxrows 3 samplen 2 Left reverse\n" : "unset key\n") +
          (index % panel_columns == 0 ? "set format y '%.0s%c'\nset ylabel 'stiffness K [N/m]'\n"
                                      : "set format y ''\nunset ylabel\n") +
          "plot " + plots + "\n";
@@ -128,7 +128,7 @@ std::string stability_map_plot(const StabilityMap& map) {
   if (map.sweeps.empty() || map.stiffnesses.size() < 2) throw ValueError("stability map plot: the map has no sweep");
   const std::size_t rows = (map.sweeps.size() + panel_columns - 1) / panel_columns;
   const double half = std::sqrt(map.stiffnesses[1] / map.stiffnesses[0]);
-  std::string script = gnuplot::svg_terminal(1180, 120 + 340 * static_cast<int>(rows)) +
+  std::string script = gnuplot::svg_terminal(1180, 150 + 340 * static_cast<int>(rows)) +
                        "set border 3 linecolor rgb '#666666'\nset tics nomirror out\nset logscale y\nset mytics 1\n"
                        "set multiplot\nset yrange [" +
                        number_text(map.stiffnesses.front() / half) + ":" + number_text(map.stiffnesses.back() * half) +
@@ -138,7 +138,10 @@ std::string stability_map_plot(const StabilityMap& map) {
   }
   pugi::xml_document document;
   gnuplot::draw(script + "unset multiplot\n", document);
-  document.child("svg").child("title").text() = "Stability of a sampled wall";
+  pugi::xml_node root = document.child("svg");
+  root.child("title").text() = "Stability of a sampled wall";
+  svg::add_text(root, panels_left * 1180.0, 28.0, 17.0, "Stability of a sampled wall",
+                {{"font-family", "sans-serif"}, {"fill", "#222222"}});
   return svg::to_string(document);
 }
 

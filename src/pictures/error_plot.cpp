@@ -35,7 +35,8 @@ struct Row {
 std::vector<Row> rows_of(const ErrorsByCharacter& errors) {
   std::vector<Row> rows;
   for (const PairedErrors& each : errors.characters) rows.push_back({&each, static_cast<double>(rows.size())});
-  if (rows.size() != 1) rows.push_back({&errors.all, static_cast<double>(rows.size()) + (rows.empty() ? 0.0 : all_gap)});
+  if (rows.size() == 1) return rows;  // all of one are it
+  rows.push_back({&errors.all, static_cast<double>(rows.size()) + (rows.empty() ? 0.0 : all_gap)});
   return rows;
 }
 
@@ -104,8 +105,8 @@ std::string figure_script(const std::vector<Row>& rows, double span, double heig
       plots_of(rows, &PairedErrors::reduction, "reduction", 0.0, text_colour, true, blocks);
   return gnuplot::svg_terminal(static_cast<int>(figure_width), static_cast<int>(height)) + blocks +
          "set tmargin at screen " + number_text(1.0 - rows_top / height) + "\nset bmargin at screen " +
-         number_text(axis_height / height) + "\nset yrange [" + number_text(span - 0.5) + ":-0.5]\nset ytics (" + ticks +
-         ") scale 0\nset grid back linetype 1 linecolor rgb '#dcdcdc' linewidth 0.5\n"
+         number_text(axis_height / height) + "\nset yrange [" + number_text(span - 0.5) + ":-0.5]\nset ytics (" +
+         ticks + ") scale 0\nset grid back linetype 1 linecolor rgb '#dcdcdc' linewidth 0.5\n"
          "set border 1 linecolor rgb '#666666'\nset xtics nomirror out\nunset key\nset multiplot\n" +
          margins(errors_left, errors_right) + x_range(rows, {&PairedErrors::vision, &PairedErrors::force}) +
          label("plot.error") + "plot " + errors + "\n" + margins(reduction_left, reduction_right) +

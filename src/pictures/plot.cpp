@@ -175,12 +175,13 @@ std::string script(const Signals& signals, const Language& language) {
       " at screen 0.022, graph 0.5 center rotate\n"
       "set key horizontal at screen 0.975, 0.942 right top samplen 2\n" +
       band_labels(signals.bands, begin, end) + y_range(in_plane) +
-      "plot $size with lines linewidth 1.6 linecolor rgb '#555555' title '|F|', "
+      "plot $size with lines linewidth 3.5 linecolor rgb '#b0b0b0' title '|F|', "
       "$fx with lines linewidth 1.3 linecolor rgb '#0072b2' title 'Fx', "
       "$fy with lines linewidth 1.3 linecolor rgb '#d55e00' title 'Fy'\n"
       "unset label\nset tmargin at screen 0.47\nset bmargin at screen 0.12\n"
       "set format x '%g'\nset xlabel " +
-      gnuplot::quoted(language.text("plot.time")) + "\nunset key\nset label " + gnuplot::quoted(language.text("plot.normal_force")) +
+      gnuplot::quoted(language.text("plot.time")) + "\nunset key\nset label " +
+      gnuplot::quoted(language.text("plot.normal_force")) +
       " at screen 0.022, graph 0.5 center rotate\n" + y_range(normal) +
       "plot $normal with lines linewidth 1.3 linecolor rgb '#222222' notitle\n"
       "unset multiplot\n";
