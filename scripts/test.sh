@@ -364,6 +364,7 @@ if [[ -n $full ]]; then
   check env CXX="$clang" scripts/full/libcxx.sh
   check scripts/full/wasm.sh
   check env CALLIGRAPHY_PROGRAM="$build/release/tools/calligraphy" scripts/full/page.sh
+  check env CALLIGRAPHY_PROGRAM="$build/release/tools/calligraphy" scripts/full/pictures.sh "$build/pictures"
   check scripts/full/arm64.sh
 fi
 finish

@@ -17,7 +17,7 @@ draw write 永 --lines --out write-lines
 draw write 永 --language zh --out write-zh
 draw write 永 --rules wang2006 --out write-wang2006       # a character that is given up
 draw write 十一㇏㇇ --out write-small
-draw write 永北京航空 --repeat 10 --out write-repeated    # errors by character
+draw write 永北京 --repeat 10 --out write-repeated        # errors by character
 draw write 永 --repeat 10 --language zh --out write-one
 draw replay "$pupil" --out replay
 draw replay "$pupil" --device desktop --language zh --out replay-guided
