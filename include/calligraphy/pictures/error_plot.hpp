@@ -19,8 +19,8 @@ struct PairedErrors {
 
 /// The same for each character, and for all together.
 struct ErrorsByCharacter {
-  std::vector<PairedErrors> characters;
-  PairedErrors all;
+  std::vector<PairedErrors> characters;  ///< in the order of the text
+  PairedErrors all;  ///< over all pairs, whose `character` is 0
 };
 
 /// SVG plot with a row per character and, of several, one for all: means with their 95 % intervals without force (open
