@@ -277,7 +277,7 @@ std::string coordinate_width_tradeoff_plot(std::span<const CoordinateWidthTradeo
   const std::string text =
       gnuplot::svg_terminal(720, 470) + style + block("widths", rows) +
       "set border 11\nset logscale y\nset xlabel 'bits per coordinate'\nset xtics 2\nset xrange [3.5:16.5]\n"
-      "set tmargin at screen 0.85\nset lmargin at screen 0.13\nset ylabel 'shape error [% of the em]'\n"
+      "set tmargin at screen 0.85\nset ylabel 'shape error [% of the em]'\n"
       "set y2label 'bytes per character'\nset y2tics\nset y2range [0:*]\nset style data linespoints\n"
       "set key top center samplen 3\n"
       "plot $widths using 1:2 linewidth 1.6 pointtype 7 linecolor rgb '#d55e00' title 'maximum error', "
@@ -285,7 +285,7 @@ std::string coordinate_width_tradeoff_plot(std::span<const CoordinateWidthTradeo
       "$widths using 1:4 axes x1y2 linewidth 1.6 dashtype 2 pointtype 5 linecolor rgb '#666666' "
       "title 'bytes (right)'\n";
   pugi::xml_document document = drawn(text, "Width of stored coordinates");
-  add_heading(document.child("svg"), 0.13 * 720.0, "Width of stored coordinates",
+  add_heading(document.child("svg"), 90.0, "Width of stored coordinates",
               "distance between the original and the stored strokes, and what they take");
   return svg::to_string(document);
 }
