@@ -7,6 +7,7 @@ kind. A half-width is scale * strokes ** -a * length ** b, fitted to all strokes
 """
 
 import sys
+import textwrap
 
 import numpy as np
 
@@ -23,7 +24,7 @@ ids = np.array([stroke.type.id for stroke, _ in strokes])[usable]
 counts = np.array([count for _, count in strokes], float)[usable]
 lengths = report["measures"]["length"][usable]
 inks = [stroke.ink for stroke, _ in strokes]
-profiles = np.array([[ink.start, ink.end, *ink.half_widths, *ink.offsets] for ink in inks])[usable]
+profiles = np.array([[ink.start, ink.end, *ink.shifts, *ink.half_widths, *ink.offsets] for ink in inks])[usable]
 profiles /= half_width[:, None]
 
 kinds = np.unique(ids)
@@ -31,16 +32,21 @@ columns = np.column_stack([ids[:, None] == kinds, np.log(counts), np.log(lengths
 solution = np.linalg.lstsq(columns, np.log(half_width), rcond=None)[0]
 scales = dict(zip(kinds, np.exp(solution[: len(kinds)])))
 
-everything = np.median(profiles, axis=0)
+straight = np.median(profiles[~np.isin(ids, [i for i in kinds if "c" in cal.typical_stroke(i).joints])], axis=0)
 rows = []
 for kind in range(1, 40):
     known = kind in kinds
-    profile = np.median(profiles[ids == kind], axis=0) if known else everything
+    profile = np.median(profiles[ids == kind], axis=0) if known else straight
     scale = scales[kind] if known else np.exp(np.mean(solution[: len(kinds)]))
-    start, end, *rest = (f"{value + 0.0:.2f}" for value in np.round(profile, 2))
+    start, end, shifts, half_widths, offsets = np.split(np.round(profile, 2), [1, 2, 6, 30])
+    lists = []
+    for values in (shifts, half_widths, offsets):
+        numbers = ", ".join(f"{value + 0.0:.2f}" for value in np.trim_zeros(values, "b"))
+        lists.append("\n               ".join(textwrap.wrap(numbers, 100)))
     rows.append(
-        f"    {{{scale:.4f}, {{{start}, {end}, {{{', '.join(rest[:8])}}},\n              {{{', '.join(rest[8:])}}}}}}},"
-        f"  // {kind}: {np.sum(ids == kind)} strokes\n"
+        f"    // {kind}: {np.sum(ids == kind)} strokes\n"
+        f"    {{{scale:.4f}, {{{start[0]:.2f}, {end[0]:.2f}, {{{lists[0]}}},\n              {{{lists[1]}}},\n"
+        f"              {{{lists[2]}}}}}}},\n"
     )
 
 print(

@@ -1,7 +1,6 @@
 """Strokes with the width of the brush: a character as ink, and the width of each stroke along its path."""
 
 import matplotlib.pyplot as plt
-import numpy as np
 from plotting import output_directory, save
 
 import calligraphy as cal
@@ -13,11 +12,11 @@ character = cal.with_typical_ink(cal.built_in_characters()["永"])
 figure, (page, widths) = plt.subplots(1, 2, figsize=(10, 4.6), layout="constrained")
 for stroke, ink in zip(character.strokes(), character.ink):
     path = cal.stroke_polyline(stroke)
-    (filled,) = page.fill(*cal.ink_outline(path, ink).T, label=stroke.type.pinyin)
+    (filled,) = page.fill(*cal.ink_outline(stroke).T, label=stroke.type.pinyin)
     page.plot(*path.T, color="white", linewidth=0.8)
 
-    length = np.linalg.norm(np.diff(path, axis=0), axis=1).sum() + ink.start + ink.end
-    widths.plot(length * cal.ink_knots(length), ink.half_widths, "o-", color=filled.get_facecolor())
+    knots = cal.ink_line(stroke).knots
+    widths.plot(knots, ink.half_widths[: len(knots)], "o-", color=filled.get_facecolor())
 page.set(aspect="equal", xlim=(0, 1), ylim=(0, 1), title="ink and path [em]")
 page.legend(loc="upper right", fontsize=7)
 widths.set(xlabel="along the stroke [em]", ylabel="half-width [em]", ylim=(0, None), title="width profiles")

@@ -119,7 +119,7 @@ void add_ink(const std::vector<SourceStroke>& drawn, const std::vector<recogniti
   const auto is_missing = [](const recognition::Outline& outline) { return outline.empty(); };
   if (detail == InkDetail::none || std::any_of(outlines.begin(), outlines.end(), is_missing)) return;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    strokes[i].ink = recognition::fit_ink(recognition::flattened(strokes[i]), drawn[i].path, outlines[i], detail);
+    strokes[i].ink = recognition::fit_ink(recognition::view_of(strokes[i]), drawn[i].path, outlines[i], detail);
   }
 }
 

@@ -37,7 +37,9 @@ Point arriving_direction(std::span<const Point> points) {
   return -leaving_direction(reversed);
 }
 
-void validate_ink(const StrokeInk& ink, int number, std::vector<ValidationIssue>& problems) {
+void validate_ink(const Stroke& stroke, int number, std::vector<ValidationIssue>& problems) {
+  const StrokeInk& ink = *stroke.ink;
+  const auto [knots, corners] = ink_size(*stroke.type, stroke.elements);
   const auto check = [&](double value, double least, const char* name) {
     if (value >= least && value <= max_ink_length) return;  // false for NaN
     problems.push_back({number, std::string(name) + " of ink " + number_text(value) + " em is not within " +
@@ -45,8 +47,17 @@ void validate_ink(const StrokeInk& ink, int number, std::vector<ValidationIssue>
   };
   check(ink.start, 0.0, "start");
   check(ink.end, 0.0, "end");
-  for (const double half_width : ink.half_widths) check(half_width, 0.0, "half-width");
-  for (const double offset : ink.offsets) check(offset, -max_ink_length, "offset");
+  const auto check_all = [&](std::span<const double> values, std::size_t count, double least, const char* name) {
+    for (const double value : values.first(count)) check(value, least, name);
+    for (const double value : values.subspan(count)) {
+      if (value == 0.0) continue;
+      problems.push_back({number, std::string(name) + " of ink " + number_text(value) + " em follows the last of " +
+                                      std::to_string(count) + ", which this stroke has"});
+    }
+  };
+  check_all(ink.half_widths, knots, 0.0, "half-width");
+  check_all(ink.offsets, knots, -max_ink_length, "offset");
+  check_all(ink.shifts, corners, -max_ink_length, "shift");
 }
 
 void validate_stroke(const Stroke& stroke, int number, std::vector<ValidationIssue>& problems) {
@@ -61,7 +72,7 @@ void validate_stroke(const Stroke& stroke, int number, std::vector<ValidationIss
     problems.push_back(
         {number, "attraction factor " + number_text(factor) + " is not a finite, non-negative number"});
   }
-  if (stroke.ink != nullptr) validate_ink(*stroke.ink, number, problems);
+  if (stroke.ink != nullptr) validate_ink(stroke, number, problems);
   if (!finite) return;
 
   const std::vector<int> ends = feature_points(stroke.elements, stroke.curve_degree);

@@ -24,7 +24,6 @@ namespace {
 constexpr std::array<std::string_view, 3> first_lines = {"calligraphy characters 1", "calligraphy characters 2",
                                                          "calligraphy characters 3"};
 constexpr int format_with_ink = 3;
-constexpr std::size_t ink_values = 2 + 2 * ink_knot_count;
 constexpr std::size_t max_file_bytes = 64 << 20;  // twice the size of all Make Me a Hanzi [bytes]
 constexpr std::string_view licence_text_key = "licence-text";
 
@@ -184,21 +183,26 @@ class Parser : private LineReader {
     if (strokes_.empty()) fail("ink before any stroke of a character");
     StrokeInput& stroke = strokes_.back();
     if (stroke.ink) fail("a second line of ink for one stroke");
-    std::array<double, ink_values> values{};
-    std::size_t count = 0;
+    std::vector<double> values;
     for (std::string_view text = word(); !text.empty(); text = word()) {
-      const double value = parse_number<double>(text, "number");
-      if (count < values.size()) values[count] = value;
-      ++count;
+      values.push_back(parse_number<double>(text, "number"));
     }
-    if (count != ink_values && count != ink_values - ink_knot_count) {
-      fail("ink takes 10 or 18 numbers, not " + std::to_string(count));
+    const auto [knots, corners] = ink_size(typical_stroke(stroke.id), stroke.composition().elements());
+    const std::size_t least = 2 + knots, most = 2 + 2 * knots + corners;
+    if (values.size() != least && values.size() != most) {
+      fail("the ink of this stroke takes " + std::to_string(least) + " or " + std::to_string(most) +
+           " numbers, not " + std::to_string(values.size()));
     }
     StrokeInk& ink = stroke.ink.emplace();
     ink.start = values[0];
     ink.end = values[1];
-    std::copy_n(values.begin() + 2, ink_knot_count, ink.half_widths.begin());
-    std::copy_n(values.begin() + 2 + ink_knot_count, ink_knot_count, ink.offsets.begin());
+    auto from = values.begin() + 2;
+    std::copy_n(from, knots, ink.half_widths.begin());
+    from += static_cast<std::ptrdiff_t>(knots);
+    if (values.size() == most) {
+      std::copy_n(from, knots, ink.offsets.begin());
+      std::copy_n(from + static_cast<std::ptrdiff_t>(knots), corners, ink.shifts.begin());
+    }
     check_stroke(stroke);
     stroke_line_ = number();
     check_ink_is_like_that_of_first_stroke();
@@ -263,11 +267,14 @@ void write_numbers(std::ostream& out, std::span<const double> numbers) {
   for (const double number : numbers) out << ' ' << format_number(number);
 }
 
-void write_ink(std::ostream& out, const StrokeInk& ink) {
+void write_ink(std::ostream& out, const Stroke& stroke) {
+  const StrokeInk& ink = *stroke.ink;
+  const auto [knots, corners] = ink_size(*stroke.type, stroke.elements);
   out << "ink " << format_number(ink.start) << ' ' << format_number(ink.end);
-  write_numbers(out, ink.half_widths);
-  if (std::any_of(ink.offsets.begin(), ink.offsets.end(), [](double offset) { return offset != 0.0; })) {
-    write_numbers(out, ink.offsets);
+  write_numbers(out, std::span(ink.half_widths).first(knots));
+  if (ink.offsets != StrokeInk{}.offsets || ink.shifts != StrokeInk{}.shifts) {
+    write_numbers(out, std::span(ink.offsets).first(knots));
+    write_numbers(out, std::span(ink.shifts).first(corners));
   }
   out << '\n';
 }
@@ -352,7 +359,7 @@ void write_characters(std::ostream& out, const CharacterList& set) {
         write_numbers(out, factors);
       }
       out << '\n';
-      if (stroke.ink != nullptr) write_ink(out, *stroke.ink);
+      if (stroke.ink != nullptr) write_ink(out, stroke);
     }
   }
 }

@@ -11,8 +11,9 @@ using namespace set_format;
 
 constexpr std::size_t min_strokes_per_row = 24;  // fewer save less than the row costs
 
-std::array<double, values_per_ink> values_of(const StrokeInk& ink) {
-  std::array<double, values_per_ink> values{ink.start, ink.end};
+std::array<double, max_ink_values> values_of(const StrokeInk& ink) {
+  std::array<double, max_ink_values> values{ink.start, ink.end};
+  std::copy(ink.shifts.begin(), ink.shifts.end(), values.begin() + first_shift);
   std::copy(ink.half_widths.begin(), ink.half_widths.end(), values.begin() + first_half_width);
   std::copy(ink.offsets.begin(), ink.offsets.end(), values.begin() + first_offset);
   return values;
@@ -20,35 +21,45 @@ std::array<double, values_per_ink> values_of(const StrokeInk& ink) {
 
 InkSteps steps_of(const StrokeInk& ink, std::uint32_t steps_per_em) {
   InkSteps steps{};
-  const std::array<double, values_per_ink> values = values_of(ink);
+  const std::array<double, max_ink_values> values = values_of(ink);
   std::transform(values.begin(), values.end(), steps.begin(),
                  [&](double value) { return static_cast<std::int32_t>(std::lround(value * steps_per_em)); });
   return steps;
 }
 
-/// The median of each value; zeros if there are no inks.
-InkSteps medians_of(const std::vector<InkSteps>& inks) {
+/// The ink of a stroke in steps.
+struct SizedSteps {
+  InkSteps steps;
+  InkSize size;
+};
+
+/// The median of each value, among the strokes that have it; 0 if none has.
+InkSteps medians_of(const std::vector<SizedSteps>& inks) {
+  std::array<std::vector<std::int32_t>, max_ink_values> of_places;
+  for (const SizedSteps& ink : inks) {
+    for_ink_places(ink.size, true, [&](std::size_t place) { of_places[place].push_back(ink.steps[place]); });
+  }
   InkSteps medians{};
-  std::vector<std::int32_t> sorted(inks.size());
-  for (std::size_t value = 0; value < values_per_ink && !inks.empty(); ++value) {
-    std::transform(inks.begin(), inks.end(), sorted.begin(), [&](const InkSteps& steps) { return steps[value]; });
-    const auto median = sorted.begin() + std::ssize(sorted) / 2;
-    std::nth_element(sorted.begin(), median, sorted.end());
-    medians[value] = *median;
+  for (std::size_t place = 0; place < max_ink_values; ++place) {
+    std::vector<std::int32_t>& steps = of_places[place];
+    if (steps.empty()) continue;
+    const auto middle = steps.begin() + std::ssize(steps) / 2;
+    std::nth_element(steps.begin(), middle, steps.end());
+    medians[place] = *middle;
   }
   return medians;
 }
 
-/// The difference of each value from the expected one, as a number: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
-std::array<std::uint32_t, values_per_ink> numbers_of(const InkSteps& steps, const InkSteps& usual) {
-  std::array<std::uint32_t, values_per_ink> numbers{};
+/// Uses the place of each stored value, and its difference from the expected one as a number: 0, -1, 1, -2, ... become
+/// 0, 1, 2, 3, ...
+template <typename Use>
+void for_numbers(const SizedSteps& ink, const InkSteps& usual, bool has_offsets, Use use) {
   std::int32_t off = 0;
-  for (std::size_t i = 0; i < values_per_ink; ++i) {
-    const std::int32_t difference = steps[i] - expected_ink(usual, i, off);
-    numbers[i] = static_cast<std::uint32_t>(difference < 0 ? -2 * difference - 1 : 2 * difference);
-    off = steps[i] - usual[i];
-  }
-  return numbers;
+  for_ink_places(ink.size, has_offsets, [&](std::size_t place) {
+    const std::int32_t difference = ink.steps[place] - expected_ink(usual, place, off);
+    use(place, static_cast<std::uint32_t>(difference < 0 ? -2 * difference - 1 : 2 * difference));
+    off = ink.steps[place] - usual[place];
+  });
 }
 
 std::uint64_t bits_of(std::uint32_t number, std::uint8_t parameter) {
@@ -67,6 +78,22 @@ void write_number(BitWriter& bits, std::uint32_t number, std::uint8_t parameter)
   bits.write(number & ((1U << parameter) - 1), parameter);
 }
 
+/// What is usual of these strokes, and the parameters that make their code shortest.
+InkRow row_of(const std::vector<SizedSteps>& inks, bool has_offsets) {
+  InkRow row{medians_of(inks), {}};
+  std::array<std::array<std::uint64_t, max_ink_parameter + 1>, max_ink_values> lengths{};  // [bit]
+  for (const SizedSteps& ink : inks) {
+    for_numbers(ink, row.usual, has_offsets, [&](std::size_t place, std::uint32_t number) {
+      for (std::uint8_t k = 0; k <= max_ink_parameter; ++k) lengths[place][k] += bits_of(number, k);
+    });
+  }
+  for (std::size_t place = 0; place < max_ink_values; ++place) {
+    const auto& own = lengths[place];
+    row.parameters[place] = static_cast<std::uint8_t>(std::min_element(own.begin(), own.end()) - own.begin());
+  }
+  return row;
+}
+
 }  // namespace
 
 InkCode ink_code_of(const std::vector<RankedInk>& inks, std::size_t kinds, std::uint32_t steps_per_em) {
@@ -74,59 +101,51 @@ InkCode ink_code_of(const std::vector<RankedInk>& inks, std::size_t kinds, std::
   if (inks.empty()) return code;
   code.steps_per_em = steps_per_em;
   const auto is_straight = [&](const RankedInk& each) {
-    return std::all_of(each.ink->offsets.begin(), each.ink->offsets.end(), [&](double offset) {
+    const auto is_zero = [&](double offset) {
       return steps_per_em == 0 ? offset == 0.0 : std::lround(offset * steps_per_em) == 0;
-    });
+    };
+    return std::all_of(each.ink->offsets.begin(), each.ink->offsets.end(), is_zero) &&
+           std::all_of(each.ink->shifts.begin(), each.ink->shifts.end(), is_zero);
   };
-  code.values = std::all_of(inks.begin(), inks.end(), is_straight) ? first_offset : values_per_ink;
+  code.is_present = true;
+  code.has_offsets = !std::all_of(inks.begin(), inks.end(), is_straight);
   if (steps_per_em == 0) return code;
 
-  std::vector<std::vector<InkSteps>> of_kinds(kinds);
-  for (const RankedInk& each : inks) of_kinds[each.kind].push_back(steps_of(*each.ink, steps_per_em));
+  std::vector<std::vector<SizedSteps>> of_kinds(kinds);
+  for (const RankedInk& each : inks) of_kinds[each.kind].push_back({steps_of(*each.ink, steps_per_em), each.size});
   // Kinds are in order of frequency: the first rare one ends the list of kinds with a row of their own.
-  const auto is_rare = [](const std::vector<InkSteps>& strokes) { return strokes.size() < min_strokes_per_row; };
+  const auto is_rare = [](const std::vector<SizedSteps>& strokes) { return strokes.size() < min_strokes_per_row; };
   const auto rare = std::find_if(of_kinds.begin(), of_kinds.end(), is_rare);
-  std::vector<InkSteps> others;
+  std::vector<SizedSteps> others;
   for (auto kind = rare; kind != of_kinds.end(); ++kind) others.insert(others.end(), kind->begin(), kind->end());
-  for (auto kind = of_kinds.begin(); kind != rare; ++kind) code.usual.push_back(medians_of(*kind));
-  code.usual.push_back(medians_of(others));
-
-  std::array<std::array<std::uint64_t, max_ink_parameter + 1>, values_per_ink> lengths{};  // [bit]
-  for (std::size_t kind = 0; kind < kinds; ++kind) {
-    for (const InkSteps& steps : of_kinds[kind]) {
-      const std::array<std::uint32_t, values_per_ink> numbers = numbers_of(steps, code.usual_of(kind));
-      for (std::size_t value = 0; value < code.values; ++value) {
-        for (std::uint8_t k = 0; k <= max_ink_parameter; ++k) lengths[value][k] += bits_of(numbers[value], k);
-      }
-    }
-  }
-  for (std::size_t value = 0; value < code.values; ++value) {
-    const auto& own = lengths[value];
-    code.parameters[value] = static_cast<std::uint8_t>(std::min_element(own.begin(), own.end()) - own.begin());
-  }
+  for (auto kind = of_kinds.begin(); kind != rare; ++kind) code.rows.push_back(row_of(*kind, code.has_offsets));
+  code.rows.push_back(row_of(others, code.has_offsets));
   return code;
 }
 
-void append_ink_code(std::vector<std::byte>& bytes, const InkCode& code) {
+void append_ink_code(std::vector<std::byte>& bytes, const InkCode& code, std::span<const InkSize> sizes) {
   append(bytes, code.steps_per_em);
-  append(bytes, static_cast<std::uint8_t>(code.values));
+  append(bytes, static_cast<std::uint8_t>(code.has_offsets ? 2 : 1));
   if (code.steps_per_em == 0) return;
-  for (std::size_t value = 0; value < code.values; ++value) append(bytes, code.parameters[value]);
-  append(bytes, static_cast<std::uint16_t>(code.usual.size()));
-  for (const InkSteps& usual : code.usual) {
-    for (std::size_t value = 0; value < code.values; ++value) append(bytes, static_cast<std::uint16_t>(usual[value]));
+  append(bytes, static_cast<std::uint16_t>(code.rows.size()));
+  for (std::size_t i = 0; i < code.rows.size(); ++i) {
+    const InkSize size = i + 1 < code.rows.size() ? sizes[i] : InkSize{max_ink_knots, max_ink_corners};
+    for_ink_places(size, code.has_offsets, [&](std::size_t place) {
+      append(bytes, code.rows[i].parameters[place]);
+      append(bytes, static_cast<std::uint16_t>(code.rows[i].usual[place]));
+    });
   }
 }
 
 void write_ink(BitWriter& bits, const RankedInk& ink, const InkCode& code) {
   if (code.steps_per_em == 0) {
-    const std::array<double, values_per_ink> values = values_of(*ink.ink);
-    for (std::size_t value = 0; value < code.values; ++value) bits.write_double(values[value]);
+    const std::array<double, max_ink_values> values = values_of(*ink.ink);
+    for_ink_places(ink.size, code.has_offsets, [&](std::size_t place) { bits.write_double(values[place]); });
     return;
   }
-  const InkSteps steps = steps_of(*ink.ink, code.steps_per_em);
-  const std::array<std::uint32_t, values_per_ink> numbers = numbers_of(steps, code.usual_of(ink.kind));
-  for (std::size_t value = 0; value < code.values; ++value) write_number(bits, numbers[value], code.parameters[value]);
+  const InkRow& row = code.row_of(ink.kind);
+  for_numbers({steps_of(*ink.ink, code.steps_per_em), ink.size}, row.usual, code.has_offsets,
+              [&](std::size_t place, std::uint32_t number) { write_number(bits, number, row.parameters[place]); });
 }
 
 }  // namespace calligraphy

@@ -15,6 +15,10 @@
 namespace calligraphy {
 namespace {
 
+// The knots of each piece between corners.
+constexpr std::size_t knots_within_first = 2, knots_within_other = 1;  // between those near its ends
+constexpr std::size_t knots_within_hook = 2;                           // in all
+
 Point direction(const Point& from, const Point& to) {
   const double length = (to - from).norm();
   return length > 0.0 ? Point((to - from) / length) : Point(1.0, 0.0);
@@ -59,15 +63,63 @@ std::vector<Point> drawn_out(std::span<const Point> path, const StrokeInk& ink) 
   return points;
 }
 
-/// A place between two knots of the profile.
-struct ProfilePlace {
-  std::size_t knot;
-  double share;  ///< fraction of the way from the knot to the next
-
-  double of(const std::array<double, ink_knot_count>& values) const {
-    return values[knot] + share * (values[knot + 1] - values[knot]);
+/// Arc lengths of the corners along the path.
+std::vector<double> corners_of(const Stroke& stroke) {
+  std::vector<double> arcs;
+  Stroke part = stroke;
+  std::size_t points = 1;
+  for (std::size_t i = 0; i + 1 < stroke.elements.size(); ++i) {
+    const bool is_line = stroke.elements[i] == static_cast<char>(ElementKind::line);
+    points += is_line ? 1 : static_cast<std::size_t>(stroke.curve_degree);
+    if (is_smooth_joint(*stroke.type, stroke.elements, i)) continue;
+    part.elements = stroke.elements.substr(0, i + 1);
+    part.control_points = stroke.control_points.first(points);
+    double arc = 0.0;
+    const std::vector<Point> path = stroke_polyline(part);
+    for (std::size_t k = 1; k < path.size(); ++k) arc += (path[k] - path[k - 1]).norm();
+    arcs.push_back(arc);
   }
-};
+  return arcs;
+}
+
+bool ends_in_hook(const TypicalStroke& type) noexcept { return type.code.ends_with('G'); }
+bool ends_in_na(const TypicalStroke& type) noexcept { return type.code.ends_with('N'); }
+
+/// Appends `count` knots evenly between the last one and `to`.
+void append_between(std::vector<double>& knots, double to, std::size_t count) {
+  const double step = (to - knots.back()) / static_cast<double>(count + 1);
+  for (std::size_t i = 0; i < count; ++i) knots.push_back(knots.back() + step);
+}
+
+/// Places the knots along the extended path.
+void place_knots(const Stroke& stroke, double length, InkLine& line) {
+  constexpr double near_start = 0.035, after_start = 0.08, beside_corner = 0.035;  // [em]
+  const bool is_na = ends_in_na(*stroke.type);
+  const double near_end = is_na ? 0.075 : 0.045, before_end = is_na ? 0.15 : 0.1;  // [em]
+  const double most = is_na ? 1.5 / 7.0 : 1.0 / 7.0;  // [1] of a piece, between two knots at its end
+  std::vector<double> ends = corners_of(stroke);      // of the pieces
+  for (double& end : ends) end += stroke.ink->start;
+  ends.push_back(length);
+  std::vector<double>& knots = line.knots;
+  knots.push_back(0.0);
+  for (std::size_t piece = 0; piece < ends.size(); ++piece) {
+    const bool is_first = piece == 0, is_last = piece + 1 == ends.size();
+    const double from = knots.back(), to = ends[piece], own = to - from;
+    if (is_last && !is_first && ends_in_hook(*stroke.type)) {
+      append_between(knots, to, knots_within_hook);
+    } else {
+      const double beside = std::min(beside_corner, own / 5.0);
+      if (is_first) knots.push_back(from + std::min(near_start, own / 7.0));
+      knots.push_back(from + (is_first ? std::min(after_start, own / 3.5) : beside));
+      const double inner_end = to - (is_last ? std::min(before_end, 2.0 * most * own) : beside);
+      append_between(knots, inner_end, is_first ? knots_within_first : knots_within_other);
+      knots.push_back(inner_end);
+      if (is_last) knots.push_back(to - std::min(near_end, most * own));
+    }
+    knots.push_back(to);
+    if (!is_last) line.corners.push_back(knots.size() - 1);
+  }
+}
 
 /// Collects the outline of discs: the points that no disc covers.
 class Envelope {
@@ -88,6 +140,7 @@ class Envelope {
     }
     for (std::size_t i = 0; i + 1 < count; ++i) add_junction(i > 0 ? i - 1 : i + 1, i, i + 1);
     for (std::size_t i = count - 1; i > 0; --i) add_junction(i + 1 < count ? i + 1 : i - 1, i, i - 1);
+    return_from_far_runs();
     return thinned();
   }
 
@@ -131,7 +184,26 @@ class Envelope {
 
   void add(const InkDisc& disc, double angle) {
     const Point point = disc.centre + disc.radius * Point(std::cos(angle), std::sin(angle));
-    if (!is_covered(point)) points_.push_back(point);
+    if (is_covered(point)) {
+      is_after_gap_ = true;
+      return;
+    }
+    if (is_after_gap_) runs_.push_back(points_.size());
+    is_after_gap_ = false;
+    points_.push_back(point);
+  }
+
+  /// Where a side of the line pokes out of the other side, as at a corner whose legs overlap, the outline goes there
+  /// and returns to where it left, so that it leaves nothing out in between.
+  void return_from_far_runs() {
+    for (std::size_t i = runs_.size(); i-- > 1;) {
+      const std::size_t first = runs_[i - 1], next = runs_[i];
+      if (first == 0) continue;
+      const Point left = points_[first - 1];
+      const double gap = (points_[next] - left).norm();
+      if (gap >= std::min((points_[first] - left).norm(), (points_[next] - points_[next - 1]).norm())) continue;
+      points_.insert(points_.begin() + static_cast<std::ptrdiff_t>(next), left);
+    }
   }
 
   bool is_covered(const Point& point) const {
@@ -173,54 +245,78 @@ class Envelope {
   double tolerance_;
   double largest_step_ = 0.0;  ///< most by which a point can be closer to the edge of the next disc [em]
   std::vector<Point> points_;
+  std::vector<std::size_t> runs_;  ///< where points begin that follow covered ones
+  bool is_after_gap_ = false;
 };
 
 }  // namespace
 
-std::array<double, ink_knot_count> ink_knots(double length) noexcept {
-  const double near = length > 0.245 ? 0.035 / length : 1.0 / 7.0;
-  const double far = length > 0.28 ? 0.08 / length : 2.0 / 7.0;
-  const double third = (1.0 - 2.0 * far) / 3.0;
-  return {0.0, near, far, far + third, far + 2.0 * third, 1.0 - far, 1.0 - near, 1.0};
+InkSize ink_size(const TypicalStroke& type, std::string_view elements) noexcept {
+  std::size_t corners = 0;
+  for (std::size_t i = 0; i + 1 < elements.size(); ++i) corners += is_smooth_joint(type, elements, i) ? 0 : 1;
+  constexpr std::size_t of_first = 4 + knots_within_first;   // its start and the next two, and the one before its end
+  constexpr std::size_t of_other = 3 + knots_within_other;   // its start, and the ones near both ends
+  if (corners == 0) return {of_first + 2, 0};                // one near the end, and the end
+  if (ends_in_hook(type)) return {of_first + of_other * (corners - 1) + knots_within_hook + 2, corners};
+  return {of_first + of_other * corners + 2, corners};
 }
 
-std::vector<InkDisc> ink_discs(std::span<const Point> path, const StrokeInk& ink, double spacing) {
+InkLine ink_line(const Stroke& stroke, double spacing) {
   constexpr double reach = 0.02;  // [em]
   constexpr double most = 2000.0;
-  if (path.empty()) throw ValueError("ink along a path without points");
+  if (stroke.ink == nullptr) throw ValueError("the stroke has no ink; with_typical_ink() gives it some");
   require_above_zero("spacing", spacing, "em");
-  ArcLength line(drawn_out(path, ink)), behind = line, ahead = line;
-  const double length = line.length();
-  const auto count = static_cast<std::size_t>(std::min(std::ceil(length / spacing), most - 1.0)) + 1;
-  const std::array<double, ink_knot_count> knots = ink_knots(length);
+  ArcLength path(drawn_out(stroke_polyline(stroke), *stroke.ink)), behind = path, ahead = path;
+  const double length = path.length();
+  InkLine line;
+  place_knots(stroke, length, line);
+  for (const double knot : line.knots) {
+    line.directions.push_back(
+        direction(behind.at(std::max(0.0, knot - reach)), ahead.at(std::min(length, knot + reach))));
+  }
+  const double step = std::max(spacing, length / most);
+  for (std::size_t knot = 0; knot + 1 < line.knots.size(); ++knot) {
+    const double gap = line.knots[knot + 1] - line.knots[knot];
+    const int count = std::max(1, static_cast<int>(std::ceil(gap / step)));
+    for (int i = knot == 0 ? 0 : 1; i <= count; ++i) {
+      const double share = static_cast<double>(i) / count;
+      line.points.push_back(path.at(line.knots[knot] + share * gap));
+      line.places.push_back(static_cast<double>(knot) + share);
+    }
+  }
+  return line;
+}
+
+std::vector<InkDisc> ink_discs(const Stroke& stroke, double spacing) {
+  const InkLine line = ink_line(stroke, spacing);
+  const StrokeInk& ink = *stroke.ink;
+  std::vector<Point> shifts;
+  for (std::size_t knot = 0; knot < line.knots.size(); ++knot) {
+    shifts.push_back(ink.offsets[knot] * left_of(line.directions[knot]));
+  }
+  for (std::size_t i = 0; i < line.corners.size(); ++i) {
+    shifts[line.corners[i]] += ink.shifts[i] * line.directions[line.corners[i]];
+  }
   std::vector<InkDisc> discs;
-  discs.reserve(count);
-  ProfilePlace place{0, 0.0};
-  for (std::size_t i = 0; i < count; ++i) {
-    const double share = count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0.0;
-    while (place.knot + 2 < knots.size() && knots[place.knot + 1] < share) ++place.knot;
-    place.share = (share - knots[place.knot]) / (knots[place.knot + 1] - knots[place.knot]);
-    const double arc = share * length;
-    const Point along = direction(behind.at(std::max(0.0, arc - reach)), ahead.at(std::min(length, arc + reach)));
-    discs.push_back({line.at(arc) + place.of(ink.offsets) * left_of(along), place.of(ink.half_widths)});
+  discs.reserve(line.points.size());
+  for (std::size_t i = 0; i < line.points.size(); ++i) {
+    const std::size_t knot = std::min(static_cast<std::size_t>(line.places[i]), line.knots.size() - 2);
+    const double share = line.places[i] - static_cast<double>(knot);
+    discs.push_back({line.points[i] + shifts[knot] + share * (shifts[knot + 1] - shifts[knot]),
+                     ink.half_widths[knot] + share * (ink.half_widths[knot + 1] - ink.half_widths[knot])});
   }
   return discs;
 }
 
-std::vector<Point> ink_outline(std::span<const Point> path, const StrokeInk& ink, double tolerance) {
+std::vector<Point> ink_outline(const Stroke& stroke, double tolerance) {
   constexpr double spacing = 0.005;  // [em]
-  return ink_outline(ink_discs(path, ink, spacing), tolerance);
+  return ink_outline(ink_discs(stroke, spacing), tolerance);
 }
 
 std::vector<Point> ink_outline(std::span<const InkDisc> discs, double tolerance) {
   require_above_zero("tolerance", tolerance, "em");
   if (discs.empty()) throw ValueError("the outline of no discs");
   return Envelope(discs, tolerance).outline();
-}
-
-std::vector<Point> ink_outline(const Stroke& stroke, double tolerance) {
-  if (stroke.ink == nullptr) throw ValueError("the stroke has no ink; with_typical_ink() gives it some");
-  return ink_outline(stroke_polyline(stroke), *stroke.ink, tolerance);
 }
 
 }  // namespace calligraphy

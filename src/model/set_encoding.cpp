@@ -178,7 +178,7 @@ class FormEncoder {
     const auto& all_factors = character.physics.attraction_factors;
     const bool has_factors = std::any_of(all_factors.begin(), all_factors.end(), [](double f) { return f != 1.0; });
     const Bytes content = encode_bits(form, has_factors);
-    const bool lacks_ink = ink_code.values != 0 && character.physics.ink.empty();
+    const bool lacks_ink = ink_code.is_present && character.physics.ink.empty();
     const std::size_t count = character.sequence.stroke_ids.size();
     const unsigned flags = (is_last ? 0U : more_forms) | (character.order.empty() ? 0U : named) |
                            (character.curve_degree == 4 ? quartic : 0U) | (has_factors ? factors : 0U) |
@@ -208,7 +208,9 @@ class FormEncoder {
     const std::vector<Kind> kinds = kinds_of(character);
     std::vector<RankedInk> inks;
     for (std::size_t i = 0; i < character.physics.ink.size(); ++i) {
-      inks.push_back({&character.physics.ink[i], ranks_.at(kinds[i])});
+      const TypicalStroke& type = typical_stroke(character.sequence.stroke_ids[i]);
+      inks.push_back({&character.physics.ink[i], ranks_.at(kinds[i]),
+                      ink_size(type, character.sequence.elements[i].elements())});
     }
     return inks;
   }
@@ -359,12 +361,20 @@ struct Header {
 
 /// The complete file, including its checksum.
 Bytes assemble(const Header& header, const Provenance& provenance, const GroupWriter& writer) {
-  const bool has_ink = header.ink.values != 0;
+  const bool has_ink = header.ink.is_present;
   const auto texts = {&provenance.source, &provenance.licence, &provenance.attribution, &provenance.licence_text};
   std::size_t first_group = kinds_at + sizeof(std::uint16_t) + kind_size * header.kinds.size() +
                             (block_size + entry_size) * writer.blocks.size();
   Bytes ink;
-  if (has_ink) append_ink_code(ink, header.ink);
+  if (has_ink) {
+    std::vector<InkSize> sizes;
+    for (const auto& [id, curves] : header.kinds) {
+      const TypicalStroke& type = typical_stroke(id);
+      const auto elements = ElementList::of(type.elements.size(), static_cast<std::uint8_t>(curves));
+      sizes.push_back(ink_size(type, elements.elements()));
+    }
+    append_ink_code(ink, header.ink, sizes);
+  }
   first_group += ink.size();
   for (const std::string* text : texts) first_group += 4 + text->size();
   const std::size_t size = first_group + writer.groups.size();

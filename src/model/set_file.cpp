@@ -78,6 +78,9 @@ void SetFile::read_header() {
          std::to_string(found) + ", but this program reads " + std::to_string(oldest_version) + " to " +
          std::to_string(version));
   }
+  if (found == unreleased_version) {
+    fail("is of format " + std::to_string(found) + ", which no release wrote: import its source again");
+  }
   if (size < kinds_at) fail("is truncated after " + std::to_string(size) + " bytes");
   if (const auto whole = load<std::uint32_t>(bytes_.data() + size_at); whole != size) {
     fail(std::string(whole > size ? "is truncated" : "continues after its end") + ": " + std::to_string(size) +
@@ -123,28 +126,28 @@ std::size_t SetFile::read_ink_code(std::size_t at) {
   if (load<std::uint32_t>(bytes_.data() + version_at) <= version_without_ink) return at;
   if (first_group_ - at < ink_head_size) fail("its index ends within its ink encoding");
   ink_code_.steps_per_em = load<std::uint32_t>(bytes_.data() + at);
-  ink_code_.values = load<std::uint8_t>(bytes_.data() + at + 4);
+  const auto values_per_knot = load<std::uint8_t>(bytes_.data() + at + 4);
+  ink_code_.is_present = true;
+  ink_code_.has_offsets = values_per_knot == 2;
   at += ink_head_size;
   const bool is_sound = ink_code_.steps_per_em <= max_ink_steps_per_em &&
-                        (ink_code_.values == first_offset || ink_code_.values == values_per_ink);
+                        (values_per_knot == 1 || values_per_knot == 2);
   if (!is_sound) fail("its ink encoding has invalid numbers");
   if (ink_code_.steps_per_em == 0) return at;
-  const std::size_t row = sizeof(std::int16_t) * ink_code_.values;
-  if (first_group_ - at < ink_code_.values + 2 + row) fail("its index ends within its ink encoding");
-  for (std::size_t value = 0; value < ink_code_.values; ++value) {
-    ink_code_.parameters[value] = load<std::uint8_t>(bytes_.data() + at++);
-    if (ink_code_.parameters[value] > max_ink_parameter) fail("its ink encoding has invalid numbers");
-  }
+  if (first_group_ - at < 2) fail("its index ends within its ink encoding");
   const std::size_t rows = load<std::uint16_t>(bytes_.data() + at);
   at += 2;
-  if (rows == 0 || rows > kinds_.size() + 1 || first_group_ - at < rows * row) {
-    fail("its ink encoding has " + std::to_string(rows) + " rows");
-  }
+  if (rows == 0 || rows > kinds_.size() + 1) fail("its ink encoding has " + std::to_string(rows) + " rows");
   for (std::size_t i = 0; i < rows; ++i) {
-    InkSteps& usual = ink_code_.usual.emplace_back();
-    for (std::size_t value = 0; value < ink_code_.values; ++value, at += sizeof(std::int16_t)) {
-      usual[value] = static_cast<std::int16_t>(load<std::uint16_t>(bytes_.data() + at));
-    }
+    const InkSize size = i + 1 < rows ? kinds_[i].ink : InkSize{max_ink_knots, max_ink_corners};
+    InkRow& row = ink_code_.rows.emplace_back();
+    for_ink_places(size, ink_code_.has_offsets, [&](std::size_t place) {
+      if (first_group_ - at < 3) fail("its index ends within its ink encoding");
+      row.parameters[place] = load<std::uint8_t>(bytes_.data() + at);
+      row.usual[place] = static_cast<std::int16_t>(load<std::uint16_t>(bytes_.data() + at + 1));
+      if (row.parameters[place] > max_ink_parameter) fail("its ink encoding has invalid numbers");
+      at += 3;
+    });
   }
   return at;
 }
@@ -161,7 +164,7 @@ void SetFile::add_kind(std::uint8_t id, std::optional<std::uint8_t> curves) {
   }
   const ElementList elements = ElementList::of(type.elements.size(), *curves);
   const auto points = [&](int degree) { return static_cast<std::uint8_t>(control_point_count(elements, degree)); };
-  kinds_.push_back({id, elements, {points(3), points(4)}});
+  kinds_.push_back({id, elements, {points(3), points(4)}, ink_size(type, elements.elements())});
 }
 
 void SetFile::read_provenance(std::size_t at) {
@@ -290,7 +293,7 @@ bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
   form.coding_ = coding_;
   form.curve_degree_ = 3;
   form.has_factors_ = false;
-  bool has_ink = ink_code_.values != 0;
+  bool has_ink = ink_code_.is_present;
   if (head >= special) {
     std::uint32_t size = 0;
     const unsigned known = has_ink ? known_flags | no_ink : known_flags;
@@ -320,7 +323,7 @@ bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
   rest.begin = end;
   form.first_bit_ = 8 * std::uint64_t{at};
   form.end_bit_ = 8 * std::uint64_t{end};
-  const std::uint64_t least_bits = min_rank_bits + (has_ink ? ink_code_.values : 0);  // of a stroke
+  const std::uint64_t least_bits = min_rank_bits + (has_ink ? 2 + 8 : 0);  // of a stroke
   if (strokes == 0 || strokes > max_strokes || strokes * least_bits > form.end_bit_ - form.first_bit_) return false;
   form.has_ink_ = has_ink;
   form.stroke_count_ = static_cast<int>(strokes);

@@ -18,9 +18,10 @@ namespace calligraphy::set_format {
 inline constexpr std::string_view magic =
     "\x89"
     "CGS\r\n\x1A\n";
-inline constexpr std::uint32_t version = 3;
+inline constexpr std::uint32_t version = 4;
 inline constexpr std::uint32_t version_without_ink = 2;  ///< readable by any reader of version 2
 inline constexpr std::uint32_t oldest_version = 1;       ///< that is still readable
+inline constexpr std::uint32_t unreleased_version = 3;   ///< whose ink had 8 knots on every stroke
 
 // The header: offset of each field [byte].
 inline constexpr std::size_t version_at = 8;
@@ -33,7 +34,7 @@ inline constexpr std::size_t coding_at = 36;
 inline constexpr std::size_t coding_size = 14;
 inline constexpr std::size_t kinds_at = 50;  ///< the kinds of strokes, most frequent first
 inline constexpr std::size_t kind_size = 2;  ///< u8 id, u8 which elements are curves, first element in the lowest bit
-inline constexpr std::size_t ink_head_size = 5;  ///< follows the kinds in version 3: u32 steps, u8 values per stroke
+inline constexpr std::size_t ink_head_size = 5;  ///< follows the kinds if there is ink: u32 steps, u8 values per knot
 
 /// A group holds the characters of 64 neighbouring code points.
 inline constexpr int group_shift = 6;
@@ -73,13 +74,24 @@ inline constexpr std::uint32_t max_steps_per_em = 1U << 26;
 inline constexpr std::uint8_t max_coordinate_bits = 32;
 inline constexpr double max_coordinate = 16.0;  // [em]
 
-// The values of a stroke's ink: start, end, half-widths and, unless they are zero throughout the file, offsets.
-inline constexpr std::size_t first_half_width = 2;
-inline constexpr std::size_t first_offset = first_half_width + ink_knot_count;
-inline constexpr std::size_t values_per_ink = first_offset + ink_knot_count;
+// The values of a stroke's ink: start, end, half-widths and, unless they are zero throughout the file, shifts of corners
+// and offsets. As many are stored as the stroke has knots and corners; their places are the same whatever the number.
+inline constexpr std::size_t first_shift = 2;
+inline constexpr std::size_t first_half_width = first_shift + max_ink_corners;
+inline constexpr std::size_t first_offset = first_half_width + max_ink_knots;
+inline constexpr std::size_t max_ink_values = first_offset + max_ink_knots;
+
+/// Places of the values that are stored for a stroke of this size, in order.
+template <typename Use>
+constexpr void for_ink_places(const InkSize& size, bool has_offsets, Use use) {
+  for (std::size_t i = 0; i < first_shift; ++i) use(i);
+  for (std::size_t i = 0; i < size.knots; ++i) use(first_half_width + i);
+  for (std::size_t i = 0; i < size.corners && has_offsets; ++i) use(first_shift + i);
+  for (std::size_t i = 0; i < size.knots && has_offsets; ++i) use(first_offset + i);
+}
 
 /// A stroke's ink in steps.
-using InkSteps = std::array<std::int32_t, values_per_ink>;
+using InkSteps = std::array<std::int32_t, max_ink_values>;
 
 // The difference of a value from the expected one, numbered 0, -1, 1, -2, ..., is stored in a Rice code. This many ones
 // escape to the plain number.
@@ -88,14 +100,20 @@ inline constexpr int ink_escaped_bits = 17;
 inline constexpr std::uint8_t max_ink_parameter = 15;
 inline constexpr std::uint32_t max_ink_steps_per_em = 16384;  ///< so that a difference fits in the escaped bits
 
+/// How the ink of some strokes is stored.
+struct InkRow {
+  InkSteps usual{};                                       ///< value expected
+  std::array<std::uint8_t, max_ink_values> parameters{};  ///< of the Rice code of each value
+};
+
 /// How the ink of a file is stored.
 struct InkCode {
-  std::uint32_t steps_per_em = 0;  ///< 0: values are doubles
-  std::size_t values = 0;          ///< per stroke; 0: there is no ink
-  std::array<std::uint8_t, values_per_ink> parameters{};  ///< of the Rice code of each value
-  std::vector<InkSteps> usual;                            ///< one per frequent kind of stroke, then one for all others
+  std::uint32_t steps_per_em = 0;   ///< 0: values are doubles
+  bool is_present = false;
+  bool has_offsets = false;         ///< and shifts
+  std::vector<InkRow> rows;         ///< one per frequent kind of stroke, then one for all others
 
-  const InkSteps& usual_of(std::size_t kind) const noexcept { return usual[std::min(kind, usual.size() - 1)]; }
+  const InkRow& row_of(std::size_t kind) const noexcept { return rows[std::min(kind, rows.size() - 1)]; }
 };
 
 /// The value expected after one that was `off` from the usual one: a brush that presses harder does so for a while.
@@ -109,6 +127,7 @@ struct StrokeKind {
   std::uint8_t id = 0;
   ElementList elements;
   std::array<std::uint8_t, 2> points{};  ///< of cubic and of quartic curves
+  InkSize ink{};                         ///< size of its ink
 };
 
 }  // namespace calligraphy::set_format

@@ -88,23 +88,29 @@ class InkReader {
 
   /// Reads the ink of a stroke of this kind. Returns false if a value is outside its domain.
   bool next(const StrokeKind& kind, StrokeInk& ink) noexcept {
-    const InkSteps* const usual =
-        code_.steps_per_em == 0 ? nullptr : &code_.usual_of(static_cast<std::size_t>(&kind - kinds_.data()));
+    const InkRow* const row =
+        code_.steps_per_em == 0 ? nullptr : &code_.row_of(static_cast<std::size_t>(&kind - kinds_.data()));
     bool is_sound = true;
     off_ = 0;
-    for (std::size_t value = 0; value < code_.values; ++value) {
-      const double length = usual == nullptr ? exact() : coded(*usual, value);
-      is_sound = is_sound && length >= (value < first_offset ? 0.0 : -max_ink_length) && length <= max_ink_length;
-      place(ink, value) = length;
-    }
+    ink = {};
+    for_ink_places(kind.ink, code_.has_offsets, [&](std::size_t place) {
+      const double length = row == nullptr ? exact() : coded(*row, place);
+      is_sound = is_sound && length >= (may_be_negative(place) ? -max_ink_length : 0.0) && length <= max_ink_length;
+      value_at(ink, place) = length;
+    });
     return is_sound;
   }
   std::uint64_t at() const noexcept { return at_; }
 
  private:
-  static double& place(StrokeInk& ink, std::size_t value) noexcept {
-    if (value < first_half_width) return value == 0 ? ink.start : ink.end;
-    return value < first_offset ? ink.half_widths[value - first_half_width] : ink.offsets[value - first_offset];
+  static bool may_be_negative(std::size_t place) noexcept {
+    return place >= first_offset || (place >= first_shift && place < first_half_width);
+  }
+
+  static double& value_at(StrokeInk& ink, std::size_t place) noexcept {
+    if (place < first_shift) return place == 0 ? ink.start : ink.end;
+    if (place < first_half_width) return ink.shifts[place - first_shift];
+    return place < first_offset ? ink.half_widths[place - first_half_width] : ink.offsets[place - first_offset];
   }
 
   double exact() noexcept {
@@ -113,11 +119,11 @@ class InkReader {
     return load_double(bytes_, at);
   }
 
-  double coded(const InkSteps& usual, std::size_t value) noexcept {
-    const std::uint32_t number = rice_number(code_.parameters[value]);
+  double coded(const InkRow& row, std::size_t place) noexcept {
+    const std::uint32_t number = rice_number(row.parameters[place]);
     const auto half = static_cast<std::int32_t>(number >> 1);
-    const std::int32_t step = expected_ink(usual, value, off_) + ((number & 1) != 0 ? -half - 1 : half);
-    off_ = step - usual[value];
+    const std::int32_t step = expected_ink(row.usual, place, off_) + ((number & 1) != 0 ? -half - 1 : half);
+    off_ = step - row.usual[place];
     return static_cast<double>(step) / code_.steps_per_em;
   }
 

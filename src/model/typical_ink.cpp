@@ -38,6 +38,7 @@ StrokeInk typical_ink(int id, double half_width) {
   StrokeInk ink = row_of(id).ink;
   ink.start *= half_width;
   ink.end *= half_width;
+  for (double& value : ink.shifts) value *= half_width;
   for (double& value : ink.half_widths) value *= half_width;
   for (double& value : ink.offsets) value *= half_width;
   return ink;

@@ -418,7 +418,7 @@ TEST_CASE("animCJK is in the frame of hanzi-writer-data, and the parts of its st
   for (std::size_t i = 0; i < 2; ++i) {
     CHECK((found.structure.control_points[i] - expected.structure.control_points[i]).norm() < 1e-9);
   }
-  for (std::size_t k = 0; k < ink_knot_count; ++k) {
+  for (std::size_t k = 0; k < max_ink_knots; ++k) {
     CHECK(found.physics.ink.at(0).half_widths[k] == Approx(expected.physics.ink.at(0).half_widths[k]).margin(1e-3));
   }
   animated.write("svgsJa/19977.svg", head + first + "</svg>");

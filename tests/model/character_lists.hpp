@@ -21,15 +21,24 @@ inline bool same(const calligraphy::Character& a, const calligraphy::Character& 
          a.physics.attraction_factors == b.physics.attraction_factors && a.physics.ink == b.physics.ink;
 }
 
+/// Ink of a stroke of this kind: no start, end or half-width beyond one length, no offset or shift beyond another [em].
+inline calligraphy::StrokeInk random_ink(const calligraphy::TypicalStroke& type, std::string_view elements,
+                                         double widest, double farthest, Sequence& random) {
+  const auto [knots, corners] = calligraphy::ink_size(type, elements);
+  calligraphy::StrokeInk ink{random.between(0.0, widest), random.between(0.0, widest)};
+  for (double& half_width : std::span(ink.half_widths).first(knots)) half_width = random.between(0.0, widest);
+  for (double& offset : std::span(ink.offsets).first(knots)) offset = random.between(-farthest, farthest);
+  for (double& shift : std::span(ink.shifts).first(corners)) shift = random.between(-farthest, farthest);
+  return ink;
+}
+
 /// Ink for every stroke of a character, no value beyond `most` [em].
 inline void add_ink(calligraphy::Character& character, double most, Sequence& random) {
-  character.physics.ink.assign(character.sequence.stroke_ids.size(), {});
-  for (calligraphy::StrokeInk& ink : character.physics.ink) {
-    ink.start = random.between(0.0, most);
-    ink.end = random.between(0.0, most);
-    for (double& half_width : ink.half_widths) half_width = random.between(0.0, most);
-    for (double& offset : ink.offsets) offset = random.between(-most, most);
+  std::vector<calligraphy::StrokeInk> inks;
+  for (const calligraphy::Stroke& stroke : calligraphy::strokes(character)) {
+    inks.push_back(random_ink(*stroke.type, stroke.elements, most, most, random));
   }
+  character.physics.ink = std::move(inks);
 }
 
 /// Every typical stroke as a separate character from U+4E00 on, each scaled about a different point.

@@ -104,15 +104,21 @@ TEST_CASE("ink reads back identically, and the format is that of older programs 
   CHECK(write(read(write(set))) == write(set));
 }
 
-TEST_CASE("ink is a line of 10 or 18 numbers after each stroke of a character", "[model]") {
+TEST_CASE("ink is a line of numbers after each stroke of a character, with offsets or without, and shifts of corners", "[model]") {
   const CharacterList set = read("calligraphy characters 3\ncharacter \xE4\xB8\x80\nstroke 1 0,0 1,1 | 1 2\n\n"
                                  "ink 0.01 0.02 1e-1 0 1 .4 .5 .6 .7 .8 # thick\n"
                                  "stroke 1 0,1 1,0\n  ink 0 0 0 0 0 0 0 0 0 0 -1 .2 .3 .4 .5 .6 .7 1\n"
-                                 "character \xE4\xBA\x8C\nstroke 1 0,0 1,1\n");
+                                 "character \xE4\xBA\x8C\nstroke 1 0,0 1,1\n"
+                                 "character \xE4\xB8\xA8\nstroke 12 0.5,1 0.5,0 0.3,0.2\n"
+                                 "ink 0 0 .1 .2 .3 .4 .5 .6 .7 .8 .9 .8"
+                                 " -.1 -.2 -.3 -.4 -.5 -.6 -.7 -.8 -.9 -1 .25\n");
   REQUIRE(set.characters[0].physics.ink.size() == 2);
-  CHECK(set.characters[0].physics.ink[0] == StrokeInk{0.01, 0.02, {0.1, 0.0, 1.0, 0.4, 0.5, 0.6, 0.7, 0.8}, {}});
-  CHECK(set.characters[0].physics.ink[1] == StrokeInk{0.0, 0.0, {}, {-1.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 1.0}});
+  CHECK(set.characters[0].physics.ink[0] == StrokeInk{0.01, 0.02, {}, {0.1, 0.0, 1.0, 0.4, 0.5, 0.6, 0.7, 0.8}, {}});
+  CHECK(set.characters[0].physics.ink[1] == StrokeInk{0.0, 0.0, {}, {}, {-1.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 1.0}});
   CHECK(set.characters[1].physics.ink.empty());
+  CHECK(set.characters[2].physics.ink.at(0) == StrokeInk{0.0, 0.0, {0.25},
+                                                         {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.8},
+                                                         {-0.1, -0.2, -0.3, -0.4, -0.5, -0.6, -0.7, -0.8, -0.9, -1.0}});
   CHECK(write(set).find("\nink 0.01 0.02 0.1 0 1 0.4 0.5 0.6 0.7 0.8\n") != std::string::npos);
 }
 

@@ -14,6 +14,7 @@
 #include <calligraphy/model/typical_ink.hpp>
 
 #include "../hard_cases.hpp"
+#include "character_lists.hpp"
 
 using namespace calligraphy;
 
@@ -21,7 +22,7 @@ namespace {
 
 StrokeInk even_ink(double half_width) {
   StrokeInk ink;
-  ink.half_widths.fill(half_width);
+  std::fill_n(ink.half_widths.begin(), 8, half_width);
   return ink;
 }
 
@@ -34,10 +35,6 @@ StrokeInput with_ink(StrokeInput stroke, const StrokeInk& ink) {
 
 /// Heng, 0.8 em long, with this ink.
 Character heng(const StrokeInk& ink) { return character_of({1, {{0.1, 0.5}, {0.9, 0.5}}, {}, {}, ink}); }
-
-std::vector<InkDisc> discs_of(const Stroke& stroke, double spacing = 0.004) {
-  return ink_discs(stroke_polyline(stroke), *stroke.ink, spacing);
-}
 
 std::vector<Point> outline_of(const Character& character, double tolerance = 5e-4) {
   return ink_outline(strokes(character)[0], tolerance);
@@ -73,12 +70,7 @@ double clearance(const std::vector<InkDisc>& discs, const Point& point) {
 StrokeInput wild_stroke(const TypicalStroke& type, calligraphy_test::Sequence& random) {
   StrokeInput stroke{type.id, {}};
   for (const std::array<double, 2>& point : type.shape) stroke.control_points.emplace_back(point[0], point[1]);
-  StrokeInk ink;
-  ink.start = random.between(0.0, 0.05);
-  ink.end = random.between(0.0, 0.05);
-  for (double& half_width : ink.half_widths) half_width = random.between(0.0, 0.08);
-  for (double& offset : ink.offsets) offset = random.between(-0.03, 0.03);
-  return with_ink(stroke, ink);
+  return with_ink(stroke, calligraphy_test::random_ink(type, type.elements, 0.07, 0.03, random));
 }
 
 std::string first_problem(const StrokeInk& ink) {
@@ -107,39 +99,82 @@ TEST_CASE("a line that is drawn out is longer by that", "[model][ink]") {
   ink.start = 0.03;
   ink.end = 0.05;
   const Character character = heng(ink);
-  const std::vector<InkDisc> discs = discs_of(strokes(character)[0]);
+  const std::vector<InkDisc> discs = ink_discs(strokes(character)[0]);
   CHECK(discs.front().centre.x() == Approx(0.07));
   CHECK(discs.back().centre.x() == Approx(0.95));
 }
 
 TEST_CASE("offsets are to the left of the stroke, half-widths and offsets linear between knots", "[model][ink]") {
+  constexpr std::size_t count = 8;
   StrokeInk ink;
-  for (std::size_t i = 0; i < ink_knot_count; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     ink.half_widths[i] = 0.01 * static_cast<double>(i + 1);
     ink.offsets[i] = 0.002 * static_cast<double>(i);
   }
   const Character character = heng(ink);
-  const std::vector<InkDisc> discs = discs_of(strokes(character)[0], 0.0005);
-  const std::array<double, ink_knot_count> knots = ink_knots(0.8);
-  CHECK(knots[1] * 0.8 == Approx(0.035));
-  CHECK(knots[2] * 0.8 == Approx(0.08));
+  const std::vector<InkDisc> discs = ink_discs(strokes(character)[0], 0.0005);
+  const std::vector<double> knots = ink_line(strokes(character)[0]).knots;
+  REQUIRE(knots.size() == count);
+  CHECK(knots[1] == Approx(0.035));
+  CHECK(knots[2] == Approx(0.08));
   CHECK(knots[4] - knots[3] == Approx(knots[3] - knots[2]));
+  CHECK(knots[5] == Approx(0.7));
+  CHECK(knots[6] == Approx(0.755));
   for (const InkDisc& disc : discs) {
-    const double share = (disc.centre.x() - 0.1) / 0.8;
+    const double arc = disc.centre.x() - 0.1;
     std::size_t knot = 0;
-    while (knot + 2 < ink_knot_count && knots[knot + 1] < share) ++knot;
-    const double between = (share - knots[knot]) / (knots[knot + 1] - knots[knot]);
+    while (knot + 2 < count && knots[knot + 1] < arc) ++knot;
+    const double between = (arc - knots[knot]) / (knots[knot + 1] - knots[knot]);
     CHECK(disc.radius == Approx(0.01 * (static_cast<double>(knot + 1) + between)));
     CHECK(disc.centre.y() - 0.5 == Approx(0.002 * (static_cast<double>(knot) + between)).margin(1e-12));
   }
 }
 
-TEST_CASE("knots increase from 0 to 1 on a path of any length", "[model][ink]") {
-  for (const double length : {0.0, 1e-6, 0.1, 0.2449, 0.2451, 0.2799, 0.2801, 0.5, 4.0, 100.0}) {
-    const std::array<double, ink_knot_count> knots = ink_knots(length);
-    CHECK(knots.front() == 0.0);
-    CHECK(knots.back() == 1.0);
-    CHECK(std::adjacent_find(knots.begin(), knots.end(), std::greater_equal<>()) == knots.end());
+TEST_CASE("every kind of stroke has as many knots as it should, in order, one on each corner, at any size",
+          "[model][ink]") {
+  for (const TypicalStroke& type : typical_strokes()) {
+    const InkSize size = ink_size(type, type.elements);
+    CHECK(size.knots <= max_ink_knots);
+    CHECK(size.corners <= max_ink_corners);
+    CHECK(size.corners == static_cast<std::size_t>(std::count(type.joints.begin(), type.joints.end(), 'c')));
+    for (const double scale : {1e-3, 0.1, 1.0, 10.0}) {
+      INFO("typical stroke " << type.id << ", scale " << scale);
+      StrokeInput input{type.id, {}};
+      for (const auto& point : type.shape) input.control_points.emplace_back(scale * point[0], scale * point[1]);
+      const Character character = character_of(with_ink(input, StrokeInk{0.01, 0.02, {}, {}, {}}));
+      const Stroke stroke = strokes(character)[0];
+      const InkLine line = ink_line(stroke);
+      REQUIRE(line.knots.size() == size.knots);
+      REQUIRE(line.corners.size() == size.corners);
+      CHECK(line.knots.front() == 0.0);
+      CHECK(std::adjacent_find(line.knots.begin(), line.knots.end(), std::greater_equal<>()) == line.knots.end());
+      std::size_t found = 0;
+      for (std::size_t joint = 0; joint < type.joints.size(); ++joint) {
+        if (type.joints[joint] != 'c') continue;
+        const Point corner = stroke.control_points[static_cast<std::size_t>(feature_points(type.elements)[joint + 1])];
+        const auto knot = static_cast<double>(line.corners[found++]);
+        const auto at = std::find(line.places.begin(), line.places.end(), knot) - line.places.begin();
+        CHECK((line.points[static_cast<std::size_t>(at)] - corner).norm() < 1e-9);
+      }
+    }
+  }
+}
+
+TEST_CASE("a shift moves the ink at a corner along the bisected direction, and nothing beyond the next knots",
+          "[model][ink]") {
+  const StrokeInput heng_zhe{16, {{0.1, 0.8}, {0.8, 0.8}, {0.8, 0.1}}};
+  StrokeInk ink;
+  std::fill_n(ink.half_widths.begin(), ink_size(typical_stroke(16), "LL").knots, 0.02);
+  const Character plain = character_of(with_ink(heng_zhe, ink));
+  ink.shifts[0] = 0.05;
+  const Character shifted = character_of(with_ink(heng_zhe, ink));
+  const std::vector<InkDisc> before = ink_discs(strokes(plain)[0]), after = ink_discs(strokes(shifted)[0]);
+  REQUIRE(before.size() == after.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double from_corner = (before[i].centre - Point(0.8, 0.8)).norm();
+    const double share = std::max(0.0, 1.0 - from_corner / 0.035);
+    const Point expected = 0.05 * share * Point(1.0, -1.0).normalized();
+    CHECK((after[i].centre - before[i].centre - expected).norm() < 1e-9);
   }
 }
 
@@ -152,7 +187,7 @@ TEST_CASE("the outline of any stroke contains what its discs cover and nothing e
     for (int drawn = 0; drawn < 3; ++drawn) {
       const Character character = character_of(wild_stroke(type, random));
       const Stroke stroke = strokes(character)[0];
-      const std::vector<InkDisc> discs = discs_of(stroke, 0.001);
+      const std::vector<InkDisc> discs = ink_discs(stroke, 0.001);
       const std::vector<Point> outline = ink_outline(stroke, tolerance);
       INFO("typical stroke " << type.id);
       for (int i = 0; i < 300; ++i) {
@@ -210,7 +245,7 @@ TEST_CASE("a stroke that is a point has the ink of a disc", "[model][ink]") {
 
 TEST_CASE("a tapered tip ends in a point", "[model][ink]") {
   StrokeInk ink = even_ink(0.03);
-  ink.half_widths.back() = 0.0;
+  ink.half_widths[7] = 0.0;
   const std::vector<Point> outline = outline_of(heng(ink));
   const auto is_left = [](const Point& a, const Point& b) { return a.x() < b.x(); };
   const auto tip = std::max_element(outline.begin(), outline.end(), is_left);
@@ -251,6 +286,9 @@ TEST_CASE("ink outside its domain is refused by name and value", "[model][ink]")
   ink = even_ink(0.02);
   ink.end = -1.0;
   CHECK(first_problem(ink) == "stroke 1: end of ink -1 em is not within 0 and 1");
+  ink = even_ink(0.02);
+  ink.shifts[0] = 0.01;
+  CHECK(first_problem(ink) == "stroke 1: shift of ink 0.01 em follows the last of 0, which this stroke has");
 }
 
 TEST_CASE("all strokes of a character have ink or none has", "[model][ink]") {
@@ -297,7 +335,7 @@ TEST_CASE("typical ink is what calligraphers write: a na is widest near its end,
   };
   CHECK(widest(6) >= 4);
   CHECK(widest(4) == 1);
-  CHECK(typical_ink(4, 1.0).half_widths.back() < 0.5);
+  CHECK(typical_ink(4, 1.0).half_widths[7] < 0.5);
 }
 
 TEST_CASE("typical ink replaces none of a character's own", "[model][ink]") {

@@ -190,10 +190,10 @@ TEST_CASE("set files and text files are distinguished by their content", "[model
   }
 }
 
-TEST_CASE("files of each version stay readable, and those of versions 2 and 3 are still written identically",
+TEST_CASE("files of each version stay readable, and those of versions 2 and 4 are still written identically",
           "[model]") {
   const std::string directory = CALLIGRAPHY_SOURCE_DIR "/tests/data/";
-  for (const std::string version : {"version_1", "version_2", "version_3"}) {
+  for (const std::string version : {"version_1", "version_2", "version_4"}) {
     const CharacterSet stored = CharacterSet::open(directory + version + ".set");
     const CharacterList list = read_characters(directory + version + ".txt");
     CHECK(stored.provenances() == std::vector{list.provenance});
@@ -202,7 +202,7 @@ TEST_CASE("files of each version stay readable, and those of versions 2 and 3 ar
       CHECK(same(stored.find(character.code, character.order)->character(), character));
     }
   }
-  for (const std::string version : {"version_2", "version_3"}) {
+  for (const std::string version : {"version_2", "version_4"}) {
     std::ifstream in(directory + version + ".set", std::ios::binary);
     const std::string bytes(std::istreambuf_iterator<char>(in), {});
     const Bytes written = encode_character_set(read_characters(directory + version + ".txt"));
@@ -336,9 +336,10 @@ TEST_CASE("each number of the header is validated, not only its checksum", "[mod
   CHECK(with(coding_at, 0).find("coding") != std::string::npos);  // doubles of 10 bits
   CHECK(with(coding_at, 0xFFFFFFFF).find("coding") != std::string::npos);
   const std::size_t kinds = load<std::uint16_t>(whole.data() + kinds_at), ink = kinds_at + 2 + kind_size * kinds;
-  const std::size_t parameters = ink + ink_head_size;
-  const std::size_t rows = parameters + values_per_ink;
-  const std::size_t provenance = rows + 2 + 2 * values_per_ink * load<std::uint16_t>(whole.data() + rows);
+  const std::size_t rows = ink + ink_head_size;
+  const std::size_t parameters = rows + 2;
+  REQUIRE(load<std::uint16_t>(whole.data() + rows) == 1);  // for all kinds, as each is rare
+  const std::size_t provenance = parameters + 3 * max_ink_values;
   CHECK(kinds >= 5);
   CHECK(with(kinds_at, 0xFFFFFFFF).find("list of stroke kinds has 65535 entries") != std::string::npos);
   CHECK(with(kinds_at, 0x01010400).find("list of stroke kinds") != std::string::npos);
@@ -425,24 +426,26 @@ TEST_CASE("ink that is negative, not finite or wider than 1 em is damaged, and i
   calligraphy_test::Sequence random(23);
   calligraphy_test::add_ink(list.characters[0], 0.06, random);
   using namespace set_format;
+  constexpr std::size_t knots = 8, first = 2 + knots, values = first + knots;  // its first offset, after its half-widths
   for (const CoordinatePrecision precision : {CoordinatePrecision::fine, CoordinatePrecision::exact}) {
     const Bytes whole = encode_character_set(list, precision);
     const bool is_exact = precision == CoordinatePrecision::exact;
-    const std::size_t usual = kinds_at + 2 + kind_size + ink_head_size + values_per_ink + 2;  // of the one kind
+    const std::size_t usual = kinds_at + 2 + kind_size + ink_head_size + 2 + 1;  // of all kinds
     const auto is_damaged = [&](std::size_t value, double number) {
       Bytes bytes = whole;
       if (is_exact) {  // after the rank of the kind and two points
         store_bits(bytes, 8 * record_of_first(bytes) + 8 + 2 + 64 * (4 + value), bit_cast<std::uint64_t>(number), 64);
         return has_damaged_ink(bytes);
       }
-      store(bytes, usual + 2 * value, static_cast<std::uint16_t>(std::lround(number * 12800.0)));
+      const std::size_t place = value < first ? value : value - first + 2 + max_ink_knots + max_ink_corners;
+      store(bytes, usual + 3 * place, static_cast<std::uint16_t>(std::lround(number * 12800.0)));
       return has_damaged_ink(bytes);
     };
-    for (std::size_t value = 0; value < values_per_ink; ++value) {
+    for (std::size_t value = 0; value < values; ++value) {
       INFO("value " << value << (is_exact ? ", exact" : ""));
       CHECK_FALSE(is_damaged(value, 1.0));
       CHECK(is_damaged(value, 1.0 + 1.0 / 12800.0));
-      CHECK(is_damaged(value, -1.0 / 12800.0) == (value < first_offset));
+      CHECK(is_damaged(value, -1.0 / 12800.0) == (value < first));
       if (!is_exact) continue;
       for (const double number : {HUGE_VAL, -HUGE_VAL, std::nan("")}) CHECK(is_damaged(value, number));
     }
@@ -480,9 +483,11 @@ TEST_CASE("a form has ink for each of its strokes, and flags of ink only where t
 
 TEST_CASE("files of a newer version and of another program are reported as such", "[model]") {
   Bytes bytes = encode_character_set(small_list());
-  store(bytes, set_format::version_at, std::uint32_t{4});
+  store(bytes, set_format::version_at, std::uint32_t{5});
   CHECK(complaint(bytes).find("newer version") != std::string::npos);
-  CHECK(complaint(bytes).find("format is 4") != std::string::npos);
+  CHECK(complaint(bytes).find("format is 5") != std::string::npos);
+  store(bytes, set_format::version_at, std::uint32_t{3});
+  CHECK(complaint(bytes).find("import its source again") != std::string::npos);
   store(bytes, set_format::version_at, std::uint32_t{0});
   CHECK(complaint(bytes).find("another program") != std::string::npos);
   const TestFile file("magic");

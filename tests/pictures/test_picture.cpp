@@ -424,7 +424,7 @@ TEST_CASE("a template is filled from the middle of every stroke to its edge, and
     for (const auto& path : groups[i].children("path")) {
       CAPTURE(encode_utf8(character.code), at);
       REQUIRE(at < expected.size());
-      const std::vector<InkDisc> discs = ink_discs(stroke_polyline(expected[at]), *expected[at].ink);
+      const std::vector<InkDisc> discs = ink_discs(expected[at]);
       ++at;
       const auto place = [&](const Point& em) { return in_picture(document, placement.to_page(em)); };
       std::size_t bare = 0;
@@ -444,7 +444,7 @@ TEST_CASE("a template is filled from the middle of every stroke to its edge, and
 TEST_CASE("the ink of a character takes the place of the typical one", "[practice]") {
   PracticePage page = page_of("一");
   StrokeInk ink;
-  ink.half_widths.fill(0.1);
+  std::fill_n(ink.half_widths.begin(), 8, 0.1);
   page.characters[0].character.physics.ink = {ink};
   const auto document = xml(page_picture(page, {}, plain_scores(page, 0), "title"));
   const auto path = all(document, "//g[@class='template']/path").at(0);

@@ -70,12 +70,12 @@ class Info(ProgramTest):
         self.assertNotIn("Stroke orders", self.run_program("info", file, "一").stdout)
 
     def test_the_characters_with_ink_are_counted(self):
-        for name, count in (("version_3.set", 2), ("version_3.txt", 2), ("version_2.set", 0)):
+        for name, count in (("version_4.set", 2), ("version_4.txt", 2), ("version_2.set", 0)):
             file = str(DATA / name)
             self.assertEqual(json.loads(self.run_program("info", file, "--json").stdout)["characters_with_ink"], count)
             text = self.run_program("info", file).stdout
             self.assertEqual("Characters with ink" in text, count > 0)
-        self.assertRegex(self.run_program("info", str(DATA / "version_3.set")).stdout, r"\nCharacters with ink +2\n")
+        self.assertRegex(self.run_program("info", str(DATA / "version_4.set")).stdout, r"\nCharacters with ink +2\n")
 
     def test_a_text_after_the_file_shows_its_characters(self):
         told = json.loads(self.run_program("info", str(DATA / "version_1.set"), "北一北", "--json").stdout)

@@ -89,12 +89,11 @@ std::vector<Character> text_in(const Characters& characters, const std::string& 
 }
 
 void add_ink(py::module_& module) {
-  module.def(
-      "ink_knots", [](double length) { return as_numbers(ink_knots(length)); }, "length"_a, "+ (8,).");
+  module.def("ink_line", &ink_line, "stroke"_a, "spacing"_a = 0.004);
   module.def(
       "ink_discs",
-      [](const ArrayLike& path, const StrokeInk& ink, double spacing) {
-        const std::vector<InkDisc> discs = ink_discs(points(path, "path"), ink, spacing);
+      [](const Stroke& stroke, double spacing) {
+        const std::vector<InkDisc> discs = ink_discs(stroke, spacing);
         Doubles result({static_cast<py::ssize_t>(discs.size()), py::ssize_t{3}});
         double* to = result.mutable_data();
         for (const InkDisc& disc : discs) {
@@ -104,18 +103,11 @@ void add_ink(py::module_& module) {
         }
         return result;
       },
-      "path"_a, "ink"_a, "spacing"_a = 0.004,
-      "Ink along a path (n, 2) as discs at most `spacing` apart: x, y, radius, (m, 3) [em].");
+      "stroke"_a, "spacing"_a = 0.004, "+ x, y, radius, (m, 3) [em].");
   module.def(
       "ink_outline",
       [](const Stroke& stroke, double tolerance) { return array_of_points(ink_outline(stroke, tolerance)); },
       "stroke"_a, "tolerance"_a = 5e-4, "+ (n, 2) [em].");
-  module.def(
-      "ink_outline",
-      [](const ArrayLike& path, const StrokeInk& ink, double tolerance) {
-        return array_of_points(ink_outline(points(path, "path"), ink, tolerance));
-      },
-      "path"_a, "ink"_a, "tolerance"_a = 5e-4, "The same along any path (n, 2) [em].");
   module.def("typical_half_width", &typical_half_width, "id"_a, "stroke_count"_a, "length"_a);
   module.def("typical_ink", &typical_ink, "id"_a, "half_width"_a);
   module.def(
@@ -145,7 +137,7 @@ void add_model(py::module_& module) {
   });
   module.def("typical_stroke", &typical_stroke, py::return_value_policy::reference, "id"_a);
 
-  add_types<StrokeInk, Provenance, CoordinatePrecision>(module);
+  add_types<StrokeInk, InkLine, Provenance, CoordinatePrecision>(module);
   py::class_<StrokeInput>(module, "StrokeInput")
       .def(py::init([](int id, const ArrayLike& control_points, const std::vector<double>& factors,
                        const std::string& elements, const std::optional<StrokeInk>& ink) {

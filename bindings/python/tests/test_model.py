@@ -177,7 +177,9 @@ def test_an_invalid_method_is_rejected(method):
 
 
 def brushed():
-    return cal.StrokeInk(start=0.01, end=0.02, half_widths=np.linspace(0.01, 0.045, 8), offsets=np.full(8, 0.002))
+    half_widths, offsets = np.zeros(24), np.zeros(24)
+    half_widths[:8], offsets[:8] = np.linspace(0.01, 0.045, 8), 0.002
+    return cal.StrokeInk(start=0.01, end=0.02, half_widths=half_widths, offsets=offsets)
 
 
 def test_ink_belongs_to_a_stroke_and_has_an_outline():
@@ -189,12 +191,13 @@ def test_ink_belongs_to_a_stroke_and_has_an_outline():
     outline = cal.ink_outline(stroke)
     x, y = outline.T
     area = 0.5 * abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
-    knots = 0.83 * cal.ink_knots(0.83)
-    trapezia = np.sum(np.diff(knots) * (brushed().half_widths[1:] + brushed().half_widths[:-1]))
+    line = cal.ink_line(stroke)
+    assert len(line.knots) == 8 and line.knots[-1] == pytest.approx(0.83) and line.corners == []
+    assert line.directions == pytest.approx(np.tile([1.0, 0.0], (8, 1)))
+    half_widths = brushed().half_widths[:8]
+    trapezia = np.sum(np.diff(line.knots) * (half_widths[1:] + half_widths[:-1]))
     assert area == pytest.approx(trapezia + 0.5 * np.pi * (0.01**2 + 0.045**2), rel=0.01)
-    path = cal.stroke_polyline(stroke)
-    assert np.array_equal(outline, cal.ink_outline(path, brushed()))
-    discs = cal.ink_discs(path, brushed())
+    discs = cal.ink_discs(stroke)
     assert discs.shape[1] == 3 and discs[0] == pytest.approx([0.09, 0.502, 0.01])
 
 
@@ -203,5 +206,5 @@ def test_a_stroke_without_ink_has_no_outline():
     assert stroke.ink is None and cal.paper_example().ink == []
     with pytest.raises(cal.InvalidValue, match="has no ink"):
         cal.ink_outline(stroke)
-    with pytest.raises(cal.InvalidValue, match="half_widths: expected shape \\(8,\\), got \\(3,\\)"):
+    with pytest.raises(cal.InvalidValue, match="half_widths: expected shape \\(24,\\), got \\(3,\\)"):
         cal.StrokeInk(half_widths=[0.1, 0.2, 0.3])

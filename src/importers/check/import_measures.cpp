@@ -5,7 +5,6 @@
 
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/set_encoding.hpp>
-#include <calligraphy/model/stroke_polyline.hpp>
 #include <calligraphy/model/typical_ink.hpp>
 
 #include "importers/fit/ink_fit.hpp"
@@ -22,21 +21,21 @@ std::vector<std::vector<InkDisc>> stored_ink(char32_t code, const std::vector<St
   const Character stored = set.find(code)->character();
   std::vector<std::vector<InkDisc>> inks;
   for (const Stroke& stroke : calligraphy::strokes(stored)) {
-    inks.push_back(ink_discs(stroke_polyline(stroke), *stroke.ink, spacing));
+    inks.push_back(ink_discs(stroke, spacing));
   }
   return inks;
 }
 
 /// Measures the ink as stored and, for comparison, ink without offsets and the typical ink of each kind.
 void measure_ink(const std::vector<SourceStroke>& drawn, const std::vector<recognition::Outline>& outlines,
-                 const std::vector<recognition::Path>& paths, std::vector<StrokeInput> strokes,
-                 ImportedCharacter& result) {
+                 std::vector<StrokeInput> strokes, ImportedCharacter& result) {
   const char32_t code = result.character.code;
   std::vector<Point> ends;
   for (const SourceStroke& each : drawn) ends.push_back(each.path.back());
   result.ink = recognition::measure_ink(outlines, ends, stored_ink(code, strokes));
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    strokes[i].ink = recognition::fit_ink(paths[i], drawn[i].path, outlines[i], InkDetail::half_widths);
+    const Stroke stroke = recognition::view_of(strokes[i]);
+    strokes[i].ink = recognition::fit_ink(stroke, drawn[i].path, outlines[i], InkDetail::half_widths);
   }
   result.plain_ink = recognition::measure_ink(outlines, ends, stored_ink(code, strokes));
   for (std::size_t i = 0; i < drawn.size(); ++i) {
@@ -70,7 +69,7 @@ void measure_import(const std::vector<SourceStroke>& drawn, const std::vector<re
     measures.outline_size = outlines[i].empty() ? 0.0 : recognition::box_of(outlines[i]).diagonal().norm();
     stroke.contradicts_label = contradicts_label(drawn[i], stroke, strokes[i].id);
   }
-  if (strokes.front().ink) measure_ink(drawn, outlines, paths, strokes, result);
+  if (strokes.front().ink) measure_ink(drawn, outlines, strokes, result);
   result.crossings.source = static_cast<int>(crossings.size());
   for (const auto& [one, other, at] : crossings) {
     if (recognition::crossing_of(paths[one], paths[other])) {

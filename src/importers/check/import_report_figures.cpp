@@ -84,7 +84,10 @@ std::vector<InkFigures> ink_figures(const ImportResult& import) {
   CharacterList list = import.list;
   const double full = size(list);
   for (Character& character : list.characters) {
-    for (StrokeInk& ink : character.physics.ink) ink.offsets.fill(0.0);
+    for (StrokeInk& ink : character.physics.ink) {
+      ink.offsets = {};
+      ink.shifts = {};
+    }
   }
   const double plain = size(list);
   for (Character& character : list.characters) character.physics.ink.clear();
@@ -92,9 +95,9 @@ std::vector<InkFigures> ink_figures(const ImportResult& import) {
   const auto count = static_cast<double>(list.characters.size());
   std::vector<InkFigures> figures{
       figures_of("typical of the kind, scaled", "typical", report.typical_ink, 0.0),
-      figures_of("8 half-widths", "half_widths", report.plain_ink, (plain - none) / count)};
+      figures_of("half-widths", "half_widths", report.plain_ink, (plain - none) / count)};
   if (full != plain) {
-    figures.push_back(figures_of("8 half-widths, 8 offsets", "full", report.ink, (full - none) / count));
+    figures.push_back(figures_of("half-widths and offsets", "full", report.ink, (full - none) / count));
   }
   return figures;
 }

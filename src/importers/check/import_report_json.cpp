@@ -129,7 +129,8 @@ OrderedJson skipped_json(const ImportReport& report) {
 OrderedJson hooks_json(const ImportReport& report) {
   OrderedJson rows = OrderedJson::array();
   for (const NotchFigures& hook : notch_figures(report)) {
-    rows.push_back({{"id", hook.id}, {"strokes", hook.strokes}, {"notches", hook.ink}, {"source_notches", hook.source}});
+    rows.push_back(
+        {{"id", hook.id}, {"strokes", hook.strokes}, {"notches", hook.ink}, {"source_notches", hook.source}});
   }
   return rows;
 }

@@ -4,15 +4,15 @@
 #include <span>
 
 #include <calligraphy/importers/character_import.hpp>
+#include <calligraphy/model/character.hpp>
 #include <calligraphy/model/stroke_ink.hpp>
 
 #include "outline.hpp"
 
 namespace calligraphy::recognition {
 
-/// The ink along a path that best covers the outline of a brush stroke. The path is that of the stroke fitted to the
-/// median; the outline is not empty; all are in em (docs/strokes.md).
-StrokeInk fit_ink(std::span<const Point> path, std::span<const Point> median, const Outline& outline,
-                  InkDetail detail);
+/// The ink of a stroke that best covers the outline of the brush stroke to whose median it was fitted. The outline is
+/// not empty (docs/strokes.md).
+StrokeInk fit_ink(const Stroke& stroke, std::span<const Point> median, const Outline& outline, InkDetail detail);
 
 }  // namespace calligraphy::recognition

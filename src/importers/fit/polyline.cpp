@@ -128,9 +128,10 @@ Path refined(const Path& path, double step) {
   return result;
 }
 
-Path flattened(const StrokeInput& stroke) {
-  return calligraphy::stroke_polyline(
-      {&typical_stroke(stroke.id), stroke.composition().elements(), 3, stroke.control_points, {}});
+Stroke view_of(const StrokeInput& stroke) {
+  return {&typical_stroke(stroke.id), stroke.composition().elements(), 3, stroke.control_points, {}};
 }
+
+Path flattened(const StrokeInput& stroke) { return calligraphy::stroke_polyline(view_of(stroke)); }
 
 }  // namespace calligraphy::recognition

@@ -51,6 +51,9 @@ Path simplified(const Path& path, std::size_t most, double tolerance);
 /// The path with vertices added so that no step exceeds `step` [em], which is increased if there would be too many.
 Path refined(const Path& path, double step);
 
+/// A stroke before it is part of a character, valid as long as `stroke`.
+Stroke view_of(const StrokeInput& stroke);
+
 /// The path of a stroke as stroke_polyline() flattens it, before it is part of a character.
 Path flattened(const StrokeInput& stroke);
 
