@@ -89,6 +89,16 @@ std::vector<Character> text_in(const Characters& characters, const std::string& 
 }
 
 void add_ink(py::module_& module) {
+  py::class_<InkLine>(module, "InkLine")
+      .def_property_readonly(
+          "points", [](const InkLine& self) { return array_of_points(self.points); }, "+ (n, 2).")
+      .def_property_readonly(
+          "places", [](const InkLine& self) { return as_numbers(self.places); }, "+ (n,).")
+      .def_property_readonly(
+          "knots", [](const InkLine& self) { return as_numbers(self.knots); }, "+ (k,).")
+      .def_property_readonly(
+          "directions", [](const InkLine& self) { return array_of_points(self.directions); }, "+ (k, 2).")
+      .def_readonly("corners", &InkLine::corners);
   module.def("ink_line", &ink_line, "stroke"_a, "spacing"_a = 0.004);
   module.def(
       "ink_discs",
@@ -137,7 +147,7 @@ void add_model(py::module_& module) {
   });
   module.def("typical_stroke", &typical_stroke, py::return_value_policy::reference, "id"_a);
 
-  add_types<StrokeInk, InkLine, Provenance, CoordinatePrecision>(module);
+  add_types<StrokeInk, Provenance, CoordinatePrecision>(module);
   py::class_<StrokeInput>(module, "StrokeInput")
       .def(py::init([](int id, const ArrayLike& control_points, const std::vector<double>& factors,
                        const std::string& elements, const std::optional<StrokeInk>& ink) {
