@@ -67,9 +67,14 @@ std::vector<Pair> pairs(const std::vector<Result>& results) {
 /// An aborted character has no meaningful error or time.
 bool is_complete(const Pair& pair) { return is_complete(*pair.vision) && is_complete(*pair.force); }
 
+/// What was drawn independently: the beliefs of a simulated writer, or a person's repetition.
+std::uint64_t run_of(const Pair& pair) {
+  return pair.vision->seed.value_or(static_cast<std::uint64_t>(pair.vision->repetition));
+}
+
 MeanInterval interval_of(const std::vector<Pair>& both, const std::function<double(const Pair&)>& quantity) {
   std::vector<DrawnValue> values;
-  for (const Pair& pair : both) values.push_back({quantity(pair), pair.vision->seed.value_or(0)});
+  for (const Pair& pair : both) values.push_back({quantity(pair), run_of(pair)});
   return mean_interval(values);
 }
 
@@ -327,7 +332,7 @@ std::string reductions(const std::vector<Result>& results, const Language& langu
   const std::size_t all = both.size();
   std::erase_if(both, [](const Pair& pair) { return !is_complete(pair); });
   std::set<std::uint64_t> runs;
-  for (const Pair& pair : both) runs.insert(pair.vision->seed.value_or(0));
+  for (const Pair& pair : both) runs.insert(run_of(pair));
   const auto of_pairs = [&language](std::size_t count, std::string_view key) {
     return language.text_for(static_cast<long long>(count), key, {{"pairs", std::to_string(count)}}) + "\n";
   };
