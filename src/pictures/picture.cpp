@@ -39,8 +39,9 @@ constexpr double picture_border = 6.0;
 constexpr double picture_top = 10.0;
 
 struct PenLine {
-  std::vector<Point> path;  ///< [em]
-  bool counted;             ///< as a stroke, or in progress
+  std::vector<Point> slide;  ///< to the start, before the writing began [em]
+  std::vector<Point> path;   ///< [em]
+  bool counted;              ///< as a stroke, or in progress
 };
 
 /// A character with what was written of it.
@@ -104,10 +105,14 @@ std::vector<Writing> writings_of(const PracticePage& page, const Recording& reco
                                                      with_typical_ink(placed.character), {},
                                                      due_stroke(recording, i, placed.character.stroke_count())});
     for (const PenDown& down : downs[i]) {
-      PenLine& line = writing.lines.emplace_back(PenLine{{}, down.finished_stroke || !down.lifted});
+      PenLine& line = writing.lines.emplace_back(PenLine{{}, {}, down.finished_stroke || !down.lifted});
       for (const TimedPoint& sample : down.samples) {
         line.path.push_back((sample.point - placed.placement.origin) / placed.placement.em);
       }
+      const auto begin = static_cast<std::ptrdiff_t>(line.counted ? writing_begin(down, page, recording) : 0);
+      if (begin == 0) continue;
+      line.slide.assign(line.path.begin(), line.path.begin() + begin + 1);
+      line.path.erase(line.path.begin(), line.path.begin() + begin);
     }
   }
   return writings;
@@ -119,8 +124,9 @@ void thin(std::span<Writing> writings) {
     std::size_t points = 0;
     for (Writing& writing : writings) {
       for (PenLine& line : writing.lines) {
+        line.slide = thinned(line.slide, detail);
         line.path = thinned(line.path, detail);
-        points += line.path.size();
+        points += line.slide.size() + line.path.size();
       }
     }
     if (points <= max_points) return;
@@ -165,18 +171,22 @@ void draw_pen(pugi::xml_node root, const Writing& writing, const svg::View& em, 
   pugi::xml_node attempts = marks::add_lines(root, "attempt", 0.7 * sizes.line);
   attempts.append_attribute("stroke-dasharray") = (number(2.5 * sizes.line) + " " + number(2.0 * sizes.line)).c_str();
   attempts.append_attribute("opacity") = "0.6";
+  pugi::xml_node slides = marks::add_lines(root, "slide", 0.5 * sizes.line);
+  slides.append_attribute("opacity") = "0.4";
   pugi::xml_node traces = marks::add_lines(root, "trace", sizes.line);
   marks::Numbers numbers(root, sizes.label);
   pugi::xml_node drawn = numbers.add_group(root, "drawn-number", "normal");
   const std::vector<DrawnStroke>& wrote = writing.match.drawn;
   for (const PenLine& line : writing.lines) {
     if (line.counted) numbers.labels().avoid(em(line.path));
+    if (!line.slide.empty()) numbers.labels().avoid(em(line.slide));
   }
   for (std::size_t i = 0; i < writing.lines.size(); ++i) {
     const PenLine& line = writing.lines[i];
     const std::vector<Point> points = em(line.path);
     const char* const colour = marks::colour_of(writing.match, i);
     pugi::xml_node group = line.counted ? traces : attempts;
+    if (!line.slide.empty()) marks::draw_path(slides, em(line.slide), colour);
     marks::draw_path(group, points, colour);
     (line.counted ? shown.written : shown.attempt) = true;
     shown.wrong |= colour == marks::wrong;
@@ -285,9 +295,11 @@ void draw_remarks(TextColumn& column, const CharacterScore& score, const Languag
 svg::View view_of(const Writing& writing) {
   Eigen::AlignedBox2d box(Point::Constant(-square_margin), Point::Constant(1.0 + square_margin));
   for (const PenLine& line : writing.lines) {
-    for (const Point& point : line.path) {
-      box.extend(point + Point::Constant(square_margin));
-      box.extend(point - Point::Constant(square_margin));
+    for (const std::vector<Point>& part : {line.slide, line.path}) {
+      for (const Point& point : part) {
+        box.extend(point + Point::Constant(square_margin));
+        box.extend(point - Point::Constant(square_margin));
+      }
     }
   }
   const double scale = picture_side / box.sizes().maxCoeff();

@@ -17,6 +17,7 @@ double distance_to_chord(const Point& point, const Point& begin, const Point& en
 }  // namespace
 
 std::vector<Point> thinned(const std::vector<Point>& path, double tolerance) {
+  if (path.empty()) return {};
   std::vector<bool> kept(path.size(), false);
   kept.front() = kept.back() = true;
   std::vector<std::pair<std::size_t, std::size_t>> open{{0, path.size() - 1}};

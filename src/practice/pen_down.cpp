@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "render/stroke_capture.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -47,9 +49,14 @@ std::vector<PenDown> pen_downs(const Recording& recording) {
       const double longest = was_on_paper ? max_lost : max_bounce;
       const bool continues = !result.empty() && ((was_on_paper && !was_lost) ||
                                                  sample.time <= result.back().samples.back().time + longest + rounding);
-      if (!continues) result.push_back({sample.character, {}, 0.0, false, true});
-      result.back().pressed += std::max(0.0, sample.force.z());
-      result.back().samples.push_back({sample.pen_tip.head<2>(), sample.time});
+      if (!continues) result.emplace_back().character = sample.character;
+      PenDown& down = result.back();
+      if (has_event(sample.events, TickEvent::stroke_started) && !down.finished_stroke) {
+        down.captured = down.samples.size();
+        down.stroke = sample.stroke;
+      }
+      down.pressed += std::max(0.0, sample.force.z());
+      down.samples.push_back({sample.pen_tip.head<2>(), sample.time});
     }
     if (has_event(sample.events, TickEvent::stroke_finished) && !result.empty()) result.back().finished_stroke = true;
     was_on_paper = on_paper;
@@ -63,6 +70,18 @@ std::vector<std::vector<PenDown>> pen_downs_by_character(const PracticePage& pag
   std::vector<std::vector<PenDown>> own(page.characters.size());
   for (PenDown& down : pen_downs(recording)) own[character_of(down, page)].push_back(std::move(down));
   return own;
+}
+
+std::size_t writing_begin(const PenDown& down, const PracticePage& page, const Recording& recording) {
+  std::size_t begin = down.captured;
+  const auto character = static_cast<std::size_t>(down.character), stroke = static_cast<std::size_t>(down.stroke);
+  if (begin == 0 || character >= page.characters.size()) return 0;
+  const StrokeTolerances tolerances = recording.setup ? recording.setup->renderer.tolerances : StrokeTolerances();
+  const std::vector<StrokeStart> starts = stroke_starts(page.characters[character], tolerances);
+  if (stroke >= starts.size()) return 0;
+  const Point captured = down.samples[begin].point;
+  while (begin > 0 && (down.samples[begin].point - captured).norm() < starts[stroke].stretch) --begin;
+  return begin;
 }
 
 std::vector<PenPath> pen_paths(const Recording& recording, const Placement& placement) {

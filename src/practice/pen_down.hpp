@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include <calligraphy/judge/pen_trace.hpp>
@@ -22,6 +23,8 @@ struct PenDown {
   double pressed = 0.0;          ///< sum of the force out of the paper over the samples [N]
   bool finished_stroke = false;  ///< whether the session took what it wrote for a stroke, or for the end of one
   bool lifted = true;            ///< false only for the last one, if the recording ends with the pen on the paper
+  std::size_t captured = 0;      ///< index of the sample with which its first stroke was captured; 0: not known
+  int stroke = 0;                ///< index of that stroke
 };
 
 /// A lift of at most 50 ms is a bounce and does not end a pen-down; nor does a loss of samples for at most 100 ms,
@@ -31,5 +34,9 @@ std::vector<PenDown> pen_downs(const Recording& recording);
 /// The same for each character of a page: a pen-down belongs to the one in whose square it lies, or to the nearest; if
 /// there are several, to the one that was active.
 std::vector<std::vector<PenDown>> pen_downs_by_character(const PracticePage& page, const Recording& recording);
+
+/// Index of the sample with which a pen-down began to write: its stroke is captured when the first stretch of it is
+/// written. Before that the pen sought the start, or slid there.
+std::size_t writing_begin(const PenDown& down, const PracticePage& page, const Recording& recording);
 
 }  // namespace calligraphy

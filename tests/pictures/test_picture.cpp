@@ -294,6 +294,35 @@ TEST_CASE("an attempt that did not count is faint and dashed, and then strokes h
   CHECK(text_of(all(document, "//g[@class='standard-number']/text")) == "1|2");
 }
 
+TEST_CASE("a trace begins where writing began, after a faint and thin slide to there", "[practice]") {
+  const PracticePage page = page_of("一");
+  const PlacedCharacter& placed = page.characters[0];
+  const PenPath line = middle_of(placed, 0);
+  const Point start = line.front(), along = (line.back() - start).normalized(), touch = start + Point(0.0, 0.1);
+  PenPath path;
+  for (int i = 0; i < 20; ++i) path.push_back(touch + 0.05 * i * (start - touch));
+  for (double way = 0.0; way < (line.back() - start).norm(); way += 0.005) path.push_back(start + way * along);
+  for (const bool counts : {true, false}) {
+    Hand hand(page);
+    hand.draw(path, counts);
+    hand.recording.samples[28].events = TickEvent::stroke_started;  // after a first stretch of 0.04 em
+    const auto document = hand.page_picture();
+    const auto first = [&](const char* group) { return points(lines_of(document, group).at(0)).front(); };
+    const auto place = [&](const Point& point) { return in_picture(document, placed.placement.to_page(point)); };
+    if (!counts) {
+      CHECK((first("attempt") - place(touch)).norm() < 0.002);
+      CHECK(lines_of(document, "slide").empty());
+      continue;
+    }
+    CHECK((first("trace") - place(start)).norm() < 0.0051 * 1e3 * placed.placement.em);
+    CHECK((first("slide") - place(touch)).norm() < 0.002);
+    CHECK(points(lines_of(document, "slide").at(0)).back() == first("trace"));
+    const auto trace = all(document, "//g[@class='trace']").at(0), slide = all(document, "//g[@class='slide']").at(0);
+    CHECK(slide.attribute("stroke-width").as_double() < 0.7 * trace.attribute("stroke-width").as_double());
+    CHECK(slide.attribute("opacity").as_double() < 1.0);
+  }
+}
+
 TEST_CASE("mistakes are red where they are", "[practice]") {
   const PracticePage page = page_of("三");
   const auto colour = [](const pugi::xml_document& document, const char* group, std::size_t line) {
