@@ -34,7 +34,7 @@ def test_signatures_have_the_names_defaults_and_kinds_of_the_arguments():
     assert str(inspect.signature(cal.nearest_point)) == (
         "(control_points, queries, method='exact', tolerance=1e-09, samples=16, refinements=2)"
     )
-    assert str(inspect.signature(cal.ink_outline)) == "(*args, **kwargs)", "it is overloaded"
+    assert str(inspect.signature(cal.ink_outline)) == "(stroke, tolerance=0.0005)"
     assert str(inspect.signature(cal.lay_out)) == "(characters, layout=Ellipsis)"
     assert str(inspect.signature(cal.device_profiles)) == "()"
     assert str(inspect.signature(cal.Recording)) == "(rate, samples, page=0, law='', inputs=[], setup=None)"
