@@ -179,7 +179,7 @@ class Refusals(ProgramTest):
         for name, content, words in (("cut.set", whole[:-1], ["truncated"]),
                                      ("index.set", whole[:70] + b"x" + whole[71:], ["checksum"]),
                                      ("group.set", whole[:-1] + bytes([whole[-1] ^ 1]), ["U+20000", "checksum"]),
-                                     ("newer.set", whole[:8] + b"\4" + whole[9:], ["newer version"]),
+                                     ("newer.set", whole[:8] + b"\5" + whole[9:], ["newer version"]),
                                      ("picture.set", b"\x89PNG\r\n\x1a\n", ["not a set file"])):
             with self.subTest(name=name):
                 (self.directory / name).write_bytes(content)
