@@ -156,8 +156,8 @@ void add_import(CLI::App& program) {
       ->check(CLI::IsMember({"coarse", "standard", "fine", "exact"}));
   command
       ->add_option("--ink", options->ink,
-                   "hanzi-writer-data: keep the width of the brush along each stroke, alone or with its sideways "
-                   "offsets (full); see docs/strokes.md")
+                   "hanzi-writer-data: keep the width of the brush along each stroke, alone or with where the "
+                   "brush lies beside the path (full); see docs/strokes.md")
       ->check(CLI::IsMember({"none", "half-widths", "full"}))
       ->capture_default_str();
   command

@@ -167,15 +167,16 @@ std::string character_label(char32_t code, const std::string& order) {
 std::string ink_table(const ImportResult& import) {
   const std::vector<InkFigures> rows = ink_figures(import);
   if (rows.empty()) return {};
-  constexpr const char* head = "{:<28}{:>10}{:>8}{:>8}{:>8}{:>8}{:>6}{:>10}{:>8}\n";
+  constexpr const char* head = "{:<32}{:>10}{:>8}{:>8}{:>8}{:>8}{:>6}{:>11}{:>8}\n";
   std::string text =
-      "\nink against the outlines: intersection over union of areas; contacts of strokes; strokes with more than 0.02 em\n"
-      "of outline uncovered, and of ink beyond the outline\n";
-  text += fmt::format(fmt::runtime(head), "", "bytes a", "", "", "whole", "kept", "new", "unco-", "beyond");
-  text += fmt::format(fmt::runtime(head), "", "character", "mean", "p5", "char.", "[%]", "[%]", "vered[%]", "[%]");
+      "\nink against the outlines (docs/strokes.md#ink): intersection over union of the areas of strokes, mean and 5th\n"
+      "percentile, and of whole characters; contacts of strokes, kept and new; strokes with more than 0.02 em of outline\n"
+      "uncovered, and of ink beyond the outline\n";
+  text += fmt::format(fmt::runtime(head), "", "bytes a", "", "", "whole", "kept", "new", "uncovered", "beyond");
+  text += fmt::format(fmt::runtime(head), "", "character", "mean", "p5", "char.", "[%]", "[%]", "[%]", "[%]");
   for (const InkFigures& ink : rows) {
     const InkMeasures& measures = *ink.measures;
-    text += fmt::format("{:<28}{:>10.1f}{:>8.4f}{:>8.4f}{:>8.4f}{:>8.2f}{:>6.2f}{:>10.2f}{:>8.2f}\n", ink.name,
+    text += fmt::format("{:<32}{:>10.1f}{:>8.4f}{:>8.4f}{:>8.4f}{:>8.2f}{:>6.2f}{:>11.2f}{:>8.2f}\n", ink.name,
                         ink.bytes_per_character, ink.mean, ink.low, ink.character_mean,
                         percent * share_of(measures.contacts_kept, measures.contacts),
                         percent * share_of(measures.new_contacts, std::max(1, measures.apart)),
@@ -183,11 +184,11 @@ std::string ink_table(const ImportResult& import) {
   }
   const std::vector<NotchFigures> hooks = notch_figures(import.report);
   if (!hooks.empty()) {
-    text += fmt::format("\nnotches of more than {:.0f} degrees within 0.1 em of the tip of a hook\n{:>8}  {:>8}{:>10}\n",
+    text += fmt::format("\nnotches of more than {:.0f} degrees within 0.1 em of the tip of a hook\n{:>8}  {:>8}{:>12}\n",
                         notch_angle, "strokes", "ink [%]", "source [%]");
   }
   for (const NotchFigures& hook : hooks) {
-    text += fmt::format("{:>8}  {:>8.1f}{:>10.1f}  {} {}\n", hook.strokes, percent * hook.ink, percent * hook.source,
+    text += fmt::format("{:>8}  {:>8.1f}{:>12.1f}  {} {}\n", hook.strokes, percent * hook.ink, percent * hook.source,
                         typical_name(hook.id), typical_stroke(hook.id).pinyin);
   }
   return text;

@@ -84,7 +84,7 @@ class ImportResult(ImportTest):
         self.assertIn("crossings of strokes kept                    100.00 %", text)
 
     def test_ink_is_kept_as_asked_for_and_measured_against_the_outlines(self):
-        outline = "M 100 250 L 500 285 L 900 240 L 900 350 L 100 300 Z"
+        outline = "M 100 250 L 500 258 L 900 240 L 900 350 L 100 300 Z"
         self.write("data/一.json", json.dumps({"strokes": [outline], "medians": [[[110, 275], [890, 295]]]}))
         sizes, areas = [], []
         for ink in ("none", "half-widths", "full"):
@@ -95,10 +95,10 @@ class ImportResult(ImportTest):
             sizes.append((self.directory / f"{ink}.set").stat().st_size)
             areas.append(max((row["iou_mean"] for row in report.get("ink", {}).values()), default=0.0))
         self.assertEqual(sizes, sorted(set(sizes)))
-        self.assertGreater(areas[1], 0.85)
+        self.assertGreater(areas[1], 0.8)
         self.assertGreaterEqual(areas[2], areas[1])
         text = self.run_program("import", "data", "-o", "out.set", "--report").stdout
-        self.assertRegex(text, r"half-widths and offsets +\d+\.\d +0\.9")
+        self.assertRegex(text, r"half-widths, offsets, shifts +\d+\.\d +0\.9")
 
     def test_a_directory_and_its_tarball_in_every_format_give_the_same_characters(self):
         for code in ("04e00", "05341"):

@@ -25,7 +25,7 @@ def without_times(value):
 class Trade(ProgramTest):
     def test_ink_is_measured_against_the_outlines_of_a_source(self):
         (self.directory / "data").mkdir()
-        outline = "M 100 250 L 500 285 L 900 240 L 900 350 L 100 300 Z"
+        outline = "M 100 250 L 500 258 L 900 240 L 900 350 L 100 300 Z"
         drawing = {"strokes": [outline], "medians": [[[110, 275], [890, 295]]]}
         (self.directory / "data/大.json").write_text(json.dumps(drawing))
         ink = self.tradeoff("大", "--ink", "data")["ink"]

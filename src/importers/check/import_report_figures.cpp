@@ -97,7 +97,7 @@ std::vector<InkFigures> ink_figures(const ImportResult& import) {
       figures_of("typical of the kind, scaled", "typical", report.typical_ink, 0.0),
       figures_of("half-widths", "half_widths", report.plain_ink, (plain - none) / count)};
   if (full != plain) {
-    figures.push_back(figures_of("half-widths and offsets", "full", report.ink, (full - none) / count));
+    figures.push_back(figures_of("half-widths, offsets, shifts", "full", report.ink, (full - none) / count));
   }
   return figures;
 }
