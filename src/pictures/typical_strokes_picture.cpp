@@ -1,12 +1,12 @@
 // The poster of the typical strokes.
 #include <calligraphy/pictures/picture.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <calligraphy/model/bezier.hpp>
@@ -25,8 +25,11 @@ using svg::add_text;
 // A3, whose proportions all A sizes have [mm].
 constexpr double poster_width = 420.0, poster_height = 297.0;
 constexpr int poster_columns = 8;
-constexpr double cell_em = 35.0, column_step = 49.0, row_step = 53.2, first_column = 24.0, first_row = 25.0;
-constexpr double line_stroke_width = 2.5, head_length = 2.1;
+constexpr double cell_em = 35.0, column_step = 49.0, row_step = 53.8, first_column = 24.0, first_row = 23.0;
+constexpr double line_stroke_width = 2.5, head_length = 2.1, small_text = 3.6;
+
+// On a shorter element an arrow head would hide the ink of a hook, or crowd the control points of a bend [em].
+constexpr double shortest_line_with_head = 0.16, shortest_curve_with_head = 0.22;
 
 constexpr const char* poster_ink = "#1d1d1f";
 constexpr const char* grid_red = "#ecd3cc";
@@ -35,6 +38,20 @@ constexpr const char* control_blue = "#6d9bd8";
 constexpr const char* quiet_grey = "#6b6b6b";
 
 constexpr const char* poster_title = "基本笔画";
+
+// The lines of the key, in English and, where a font has them, the Chinese terms.
+constexpr std::pair<const char*, const char*> key_lines[] = {
+    {"start", "起笔"}, {"direction", "行笔方向"}, {"end", "收笔"},
+    {"feature point", "特征点"}, {"where pieces meet", ""},
+    {"control point", "控制点"}, {"it bends a curve", ""},
+    {"line", "直线"}, {"curve", "曲线"}};
+
+// What the letters below the names mean.
+constexpr std::pair<const char*, const char*> letter_lines[] = {
+    {"HZWG", "the letter code of the CJK stroke: the initials of its Chinese name, héng zhé wān gōu"},
+    {"BXG", "the initials of another name, biǎn xié gōu; with a slash, as in SZWG/SZZG, those of two names"},
+    {"LLCLL", "its pieces in the order of writing, lines (L) and curves (C)"}};
+
 constexpr const char* latin_fonts = "'Noto Sans', 'Source Sans 3', 'Helvetica Neue', Arial, sans-serif";
 constexpr const char* chinese_fonts = "'Noto Sans CJK SC', 'Source Han Sans SC', 'Noto Sans SC', 'PingFang SC', "
                                       "'Microsoft YaHei', 'WenQuanYi Micro Hei', sans-serif";
@@ -50,16 +67,21 @@ std::string families(const std::string& font) {
 }
 
 void draw_feature_point(pugi::xml_node parent, const Point& at) {
-  svg::add_circle(parent, "feature", at, "0.62", {{"fill", "#ffffff"}, {"stroke", path_red}, {"stroke-width", "0.3"}});
+  svg::add_circle(parent, "feature", at, "0.42", {{"fill", "#ffffff"}, {"stroke", path_red}, {"stroke-width", "0.2"}});
+}
+
+/// Small, so that the point of a hook is seen.
+void draw_end(pugi::xml_node parent, const Point& at) {
+  svg::add_circle(parent, "end", at, "0.34", {{"fill", path_red}});
 }
 
 void draw_control_point(pugi::xml_node parent, const Point& at) {
-  svg::add_circle(parent, "control", at, "0.48",
-                  {{"fill", "#ffffff"}, {"stroke", control_blue}, {"stroke-width", "0.22"}});
+  svg::add_circle(parent, "control", at, "0.55",
+                  {{"fill", control_blue}, {"stroke", "#ffffff"}, {"stroke-width", "0.25"}});
 }
 
 void draw_start(pugi::xml_node parent, const Point& at) {
-  svg::add_circle(parent, "start", at, "1.6", {{"fill", "none"}, {"stroke", path_red}, {"stroke-width", "0.5"}});
+  svg::add_circle(parent, "start", at, "0.7", {{"fill", path_red}});
 }
 
 void draw_polygon(pugi::xml_node parent, std::span<const Point> points) {
@@ -67,10 +89,9 @@ void draw_polygon(pugi::xml_node parent, std::span<const Point> points) {
                        {"stroke-width", "0.22"}, {"stroke-dasharray", "0.9 0.6"}});
 }
 
-/// An arrow head about a point of the path, at most `room` long.
-void draw_direction(pugi::xml_node parent, const Point& at, const Point& direction, double room) {
-  const double length = std::min(head_length, room);
-  const Point ahead = length * direction.normalized();
+/// An arrow head about a point of the path.
+void draw_direction(pugi::xml_node parent, const Point& at, const Point& direction) {
+  const Point ahead = head_length * direction.normalized();
   const Point side = 0.42 * Point(-ahead.y(), ahead.x());
   const Point back = at - 0.5 * ahead;
   const std::vector<Point> head = {at + 0.5 * ahead, back + side, back + 0.25 * ahead, back - side};
@@ -78,7 +99,7 @@ void draw_direction(pugi::xml_node parent, const Point& at, const Point& directi
 }
 
 void draw_middle_line(pugi::xml_node parent, const std::string& path) {
-  add(parent, "path", {{"class", "path"}, {"d", path}, {"fill", "none"}, {"stroke", path_red}, {"stroke-width", "0.32"},
+  add(parent, "path", {{"class", "path"}, {"d", path}, {"fill", "none"}, {"stroke", path_red}, {"stroke-width", "0.2"},
                        {"stroke-linejoin", "round"}});
 }
 
@@ -107,33 +128,36 @@ void draw_marks(pugi::xml_node parent, const Stroke& stroke, const svg::View& vi
   draw_middle_line(parent, svg::stroke_path(stroke, view));
   for (std::size_t i = 0; i < stroke.elements.size(); ++i) {
     const auto first = static_cast<std::size_t>(features[i]), last = static_cast<std::size_t>(features[i + 1]);
-    const double chord = (points[last] - points[first]).norm();
+    const double shortest = is_curve(i) ? shortest_curve_with_head : shortest_line_with_head;
+    const bool has_head = (points[last] - points[first]).norm() >= shortest * cell_em;
     if (is_curve(i)) {
       const Bezier<3> curve{{points[first], points[first + 1], points[first + 2], points[last]}};
-      draw_direction(parent, curve.point(0.5), curve.derivative(0.5), 0.45 * chord);
+      if (has_head) draw_direction(parent, curve.point(0.5), curve.derivative(0.5));
       draw_control_point(parent, points[first + 1]);
       draw_control_point(parent, points[first + 2]);
-    } else {
-      draw_direction(parent, 0.5 * (points[first] + points[last]), points[last] - points[first], 0.7 * chord);
+    } else if (has_head) {
+      draw_direction(parent, 0.5 * (points[first] + points[last]), points[last] - points[first]);
     }
   }
   draw_start(parent, points[0]);
-  for (const int feature : features) draw_feature_point(parent, points[static_cast<std::size_t>(feature)]);
+  for (std::size_t i = 1; i < stroke.elements.size(); ++i) {
+    draw_feature_point(parent, points[static_cast<std::size_t>(features[i])]);
+  }
+  draw_end(parent, points.back());
 }
 
 void write_names(pugi::xml_node parent, const TypicalStroke& type, const std::string& font, const Point& corner) {
   const double x = corner.x(), below = corner.y() + cell_em;
-  add_text(parent, x - 1.8, corner.y() + 2.7, 3.7, std::to_string(type.id),
+  add_text(parent, x - 1.8, corner.y() + 3.3, 4.6, std::to_string(type.id),
            {{"class", "number"}, {"text-anchor", "end"}, {"font-weight", "bold"}, {"fill", quiet_grey}});
-  if (font.empty()) {
-    add_text(parent, x, below + 6.4, 4.2, std::string(type.pinyin), {{"class", "pinyin"}});
-  } else {
-    add_text(parent, x, below + 6.2, 5.2, std::string(type.name),
+  if (!font.empty()) {
+    add_text(parent, x, below + 6.0, 5.4, std::string(type.name),
              {{"class", "name"}, {"font-family", families(font)}, {"xml:lang", "zh-Hans"}});
-    add_text(parent, x, below + 10.7, 3.4, std::string(type.pinyin), {{"class", "pinyin"}});
   }
+  add_text(parent, x, below + (font.empty() ? 6.0 : 11.1), 4.6, std::string(type.pinyin), {{"class", "pinyin"}});
   const std::string code = std::string(type.code) + " \u00b7 " + std::string(type.elements);
-  add_text(parent, x, below + (font.empty() ? 10.8 : 14.4), 2.6, code, {{"class", "code"}, {"fill", quiet_grey}});
+  add_text(parent, x, below + (font.empty() ? 11.0 : 15.6), small_text, code,
+           {{"class", "code"}, {"fill", quiet_grey}});
 }
 
 void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, StrokeStyle style, const std::string& font,
@@ -150,26 +174,37 @@ void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, Strok
   write_names(parent, type, font, corner);
 }
 
-void draw_key(pugi::xml_node parent, const Point& corner) {
+void draw_key(pugi::xml_node parent, const std::string& font, const Point& corner) {
+  const auto at = [&](int row) { return Point(corner + Point(0.0, 2.0 + 5.6 * row)); };
+  const auto across = [](const Point& middle) {
+    return std::array{Point(middle - Point(4.0, 0.0)), Point(middle + Point(4.0, 0.0))};
+  };
   int row = 0;
-  const auto line = [&](const char* text) {
-    const Point at = corner + Point(4.0, 3.0 + 5.8 * row++);
-    add_text(parent, at.x() + 7.0, at.y() + 1.05, 3.0, text);
-    return at;
-  };
-  const auto across = [](const Point& at) {
-    return std::array{Point(at - Point(4.0, 0.0)), Point(at + Point(4.0, 0.0))};
-  };
-  draw_start(parent, line("start"));
-  const Point direction = line("path, direction");
-  draw_middle_line(parent, svg::line_path(across(direction)));
-  draw_direction(parent, direction, Point(1.0, 0.0), head_length);
-  draw_feature_point(parent, line("feature point"));
-  draw_control_point(parent, line("control point"));
-  draw_polygon(parent, across(line("control polygon")));
-  for (const auto& [letter, text] : {std::pair{"L", "line"}, std::pair{"C", "cubic B\u00e9zier curve"}}) {
-    const Point at = line(text);
-    add_text(parent, at.x(), at.y() + 1.05, 3.0, letter, {{"text-anchor", "middle"}, {"font-weight", "bold"}});
+  for (const auto& [english, chinese] : key_lines) {
+    const Point place = at(row++) + Point(6.0, 0.35 * small_text);
+    pugi::xml_node text = add_text(parent, place.x(), place.y(), small_text, english);
+    if (font.empty() || *chinese == '\0') continue;
+    add(text, "tspan", {{"dx", "1.3"}, {"font-family", families(font)}, {"xml:lang", "zh-Hans"}}).text() = chinese;
+  }
+  draw_start(parent, at(0));
+  draw_middle_line(parent, svg::line_path(across(at(1))));
+  draw_direction(parent, at(1), Point(1.0, 0.0));
+  draw_end(parent, at(2));
+  draw_feature_point(parent, at(3));
+  draw_polygon(parent, across(at(5)));
+  draw_control_point(parent, at(5));
+  for (const auto& [letter, letter_row] : {std::pair{"L", 7}, std::pair{"C", 8}}) {
+    add_text(parent, at(letter_row).x(), at(letter_row).y() + 0.35 * small_text, small_text, letter,
+             {{"text-anchor", "middle"}, {"font-weight", "bold"}});
+  }
+}
+
+void explain_letters(pugi::xml_node parent, const Point& corner) {
+  Point at = corner;
+  for (const auto& [letters, text] : letter_lines) {
+    add_text(parent, at.x(), at.y(), small_text, letters, {{"font-weight", "bold"}});
+    add_text(parent, at.x() + 16.0, at.y(), small_text, text);
+    at.y() += 4.8;
   }
 }
 
@@ -177,6 +212,7 @@ void draw_key(pugi::xml_node parent, const Point& corner) {
 
 std::string typical_strokes_font() {
   std::string text = poster_title;
+  for (const auto& line : key_lines) text += line.second;
   for (const TypicalStroke& type : typical_strokes()) text += type.name;
   return chinese_font(text);
 }
@@ -201,7 +237,9 @@ std::string typical_strokes_picture(StrokeStyle style, const std::string& font) 
   for (const TypicalStroke& type : typical_strokes()) {
     draw_typical_stroke(add(root, "g", {{"class", "stroke"}}), type, style, font, corner(type.id - 1));
   }
-  draw_key(add(root, "g", {{"class", "key"}}), corner(typical_stroke_count));
+  pugi::xml_node key = add(root, "g", {{"class", "key"}});
+  explain_letters(key, Point(corner(3).x(), 8.5));
+  draw_key(key, font, corner(typical_stroke_count) - Point(5.0, 0.0));
   return svg::to_string(document);
 }
 

@@ -25,6 +25,12 @@ class Strokes(ProgramTest):
             self.assertEqual(done.stderr, "")
             self.assertLessEqual({"横", "竖", "横折弯钩"}, set(texts))
 
+    def test_a_key_tells_what_the_marks_and_the_letters_mean(self):
+        told = {"start", "direction", "end", "feature point", "control point", "line", "curve", "HZWG", "BXG", "LLCLL"}
+        self.assertLessEqual(told, set(self.texts(self.run_program("strokes", "-o", "-").stdout)))
+        self.assertLessEqual(
+            told, set(self.texts(self.run_program("strokes", "-o", "-", environment=self.no_chinese_font()).stdout)))
+
     def test_without_a_chinese_font_names_are_latin_and_that_is_told_once(self):
         done = self.run_program("strokes", "-o", "-", environment=self.no_chinese_font())
         self.assertRegex(done.stderr, r"\Acalligraphy: [^\n]*Chinese[^\n]*font[^\n]*\n\Z")
