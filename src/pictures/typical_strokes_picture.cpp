@@ -39,7 +39,7 @@ constexpr const char* quiet_grey = "#6b6b6b";
 
 constexpr const char* poster_title = "基本笔画";
 
-// The lines of the key, in English and, where a font has them, the Chinese terms.
+// The lines of the key, in English and, where a font has them, the Chinese terms. A line without explains that above.
 constexpr std::pair<const char*, const char*> key_lines[] = {
     {"start", "起笔"}, {"direction", "行笔方向"}, {"end", "收笔"},
     {"feature point", "特征点"}, {"where pieces meet", ""},
@@ -182,8 +182,10 @@ void draw_key(pugi::xml_node parent, const std::string& font, const Point& corne
   int row = 0;
   for (const auto& [english, chinese] : key_lines) {
     const Point place = at(row++) + Point(6.0, 0.35 * small_text);
-    pugi::xml_node text = add_text(parent, place.x(), place.y(), small_text, english);
-    if (font.empty() || *chinese == '\0') continue;
+    const bool explains = std::string_view(chinese).empty();
+    pugi::xml_node text = add_text(parent, place.x(), place.y(), small_text, english,
+                                   {{"fill", explains ? quiet_grey : poster_ink}});
+    if (font.empty() || explains) continue;
     add(text, "tspan", {{"dx", "1.3"}, {"font-family", families(font)}, {"xml:lang", "zh-Hans"}}).text() = chinese;
   }
   draw_start(parent, at(0));
