@@ -121,6 +121,20 @@ void place_knots(const Stroke& stroke, double length, InkLine& line) {
   }
 }
 
+/// Appends a disc, after others that fill the gap where shifts differ much between knots that are close together.
+void append_disc(const InkDisc& disc, double spacing, std::vector<InkDisc>& discs) {
+  constexpr double widest = 2.5, most = 100.0;  // [spacing], steps
+  const InkDisc last = discs.empty() ? disc : discs.back();
+  const double gap = (disc.centre - last.centre).norm() / spacing;
+  const int steps = gap > widest ? static_cast<int>(std::min(std::ceil(gap), most)) : 1;
+  for (int i = 1; i < steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    discs.push_back({last.centre + share * (disc.centre - last.centre),
+                     last.radius + share * (disc.radius - last.radius)});
+  }
+  discs.push_back(disc);
+}
+
 /// Collects the outline of discs: the points that no disc covers.
 class Envelope {
  public:
@@ -302,8 +316,9 @@ std::vector<InkDisc> ink_discs(const Stroke& stroke, double spacing) {
   for (std::size_t i = 0; i < line.points.size(); ++i) {
     const std::size_t knot = std::min(static_cast<std::size_t>(line.places[i]), line.knots.size() - 2);
     const double share = line.places[i] - static_cast<double>(knot);
-    discs.push_back({line.points[i] + shifts[knot] + share * (shifts[knot + 1] - shifts[knot]),
-                     ink.half_widths[knot] + share * (ink.half_widths[knot + 1] - ink.half_widths[knot])});
+    append_disc({line.points[i] + shifts[knot] + share * (shifts[knot + 1] - shifts[knot]),
+                 ink.half_widths[knot] + share * (ink.half_widths[knot + 1] - ink.half_widths[knot])},
+                spacing, discs);
   }
   return discs;
 }

@@ -132,7 +132,8 @@ void begin_at_feet(const DiscLine& line, const Outline& outline, StrokeInk& ink)
 }
 
 /// The initial ink: of the discs that fit into the outline about points of the median or of the path itself.
-StrokeInk first_ink(const Stroke& stroke, std::span<const Point> median, const Outline& outline, InkDetail detail) {
+StrokeInk first_ink(const Stroke& stroke, std::span<const Point> median, const Outline& outline, InkDetail detail,
+                    bool with_feet) {
   constexpr double spacing = 0.015;  // [em]
   const BrushEnds ends = brush_ends(median, outline, half_width(median, outline));
   StrokeInk ink{ends.start, ends.end, {}, {}, {}};
@@ -151,7 +152,7 @@ StrokeInk first_ink(const Stroke& stroke, std::span<const Point> median, const O
   }
   if (!is_sideways) return ink;
   ink.offsets = knot_values(line, offsets);
-  begin_at_feet(line, outline, ink);
+  if (with_feet) begin_at_feet(line, outline, ink);
   return ink;
 }
 
@@ -171,6 +172,13 @@ class InkFit {
     return ink_;
   }
 
+  /// The farthest that ink and outline were apart before the last step, and that they are now [em].
+  double last_farthest() const { return farthest_; }
+  double farthest() {
+    compare();
+    return farthest_;
+  }
+
  private:
   // The unknowns: half-widths, offsets, shifts at corners, and how far the ends extend.
   int first_offset() const { return knots_; }
@@ -182,11 +190,7 @@ class InkFit {
     constexpr double damping = 0.02;  // [1] of the mean weight; holds what the edge does not determine
     constexpr double most = 0.02;     // [em]
     constexpr double farthest = 0.5;  // [em]
-    lay_discs();
-    matrix_.setZero(unknowns(), unknowns());
-    right_.setZero(unknowns());
-    for (std::size_t i = 0; i < discs_.size(); ++i) add_points(i);
-    if (is_sideways_) add_uncovered();
+    compare();
     matrix_.diagonal().array() += damping * matrix_.trace() / unknowns() + 1e-12;
     const Eigen::VectorXd change = matrix_.ldlt().solve(right_).cwiseMax(-most).cwiseMin(most);
     const auto move = [&](double& value, int unknown, double least) {
@@ -203,6 +207,15 @@ class InkFit {
     move(ink_.end, first_end() + 1, 0.0);
     lay_line();
     if (is_sideways_) limit_half_widths();
+  }
+
+  void compare() {
+    lay_discs();
+    farthest_ = 0.0;
+    matrix_.setZero(unknowns(), unknowns());
+    right_.setZero(unknowns());
+    for (std::size_t i = 0; i < discs_.size(); ++i) add_points(i);
+    if (is_sideways_) add_uncovered();
   }
 
   void lay_line() {
@@ -274,6 +287,7 @@ class InkFit {
     const Point point = discs_[i].centre + discs_[i].radius * direction;
     if (is_covered(point)) return;
     const double distance = distance_to_outline(point, direction);
+    farthest_ = std::max(farthest_, -distance);
     add_row(i, direction, distance, distance < 0.0 ? outside * length : length, endways);
   }
 
@@ -281,7 +295,7 @@ class InkFit {
   void add_uncovered() {
     constexpr double step = 0.012;                    // [em]
     constexpr double weight = 1.5;                    // relative to an edge of the ink within the outline
-    constexpr double beyond = 0.002, farthest = 0.05;  // [em]; nearer points count as covered, farther ones as apart
+    constexpr double beyond = 0.002, most = 0.05;     // [em]; nearer points count as covered, farther ones as apart
     std::size_t nearest = 0;
     for (const OutlineEdge& edge : outline_.edges) {
       if (!edge.is_border) continue;
@@ -291,7 +305,8 @@ class InkFit {
         const Point point = edge.from + (edge.to - edge.from) * (i + 0.5) / pieces;
         nearest = nearest_disc(point, nearest, beyond);
         const double distance = distance_from(nearest, point);
-        if (distance < beyond || distance > farthest) continue;
+        farthest_ = std::max(farthest_, distance);
+        if (distance < beyond || distance > most) continue;
         const Point direction = (point - discs_[nearest].centre).normalized();
         add_row(nearest, direction, distance, weight * length / pieces, endways_of(nearest, direction));
       }
@@ -385,6 +400,7 @@ class InkFit {
   int knots_, corners_;
   DiscLine line_;
   std::vector<InkDisc> discs_;
+  double farthest_ = 0.0;      ///< that ink and outline are apart [em]
   double largest_step_ = 0.0;  ///< how much nearer to a point the edge of the next disc can be [em]
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_;
@@ -393,7 +409,14 @@ class InkFit {
 }  // namespace
 
 StrokeInk fit_ink(const Stroke& stroke, std::span<const Point> median, const Outline& outline, InkDetail detail) {
-  return InkFit(stroke, outline, first_ink(stroke, median, outline, detail), detail).run();
+  constexpr double well = 0.02;  // [em]
+  InkFit fit(stroke, outline, first_ink(stroke, median, outline, detail, true), detail);
+  const StrokeInk ink = fit.run();
+  if (detail != InkDetail::full || fit.last_farthest() <= well) return ink;
+  // What was taken for a foot may be none: the shape is simple, or another part of the stroke is near.
+  InkFit other(stroke, outline, first_ink(stroke, median, outline, detail, false), detail);
+  const StrokeInk without_feet = other.run();
+  return other.farthest() < fit.farthest() ? without_feet : ink;
 }
 
 }  // namespace calligraphy::recognition
