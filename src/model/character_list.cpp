@@ -21,9 +21,9 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::array<std::string_view, 3> first_lines = {"calligraphy characters 1", "calligraphy characters 2",
-                                                         "calligraphy characters 3"};
-constexpr int format_with_ink = 3;
+constexpr std::array<std::string_view, 4> first_lines = {"calligraphy characters 1", "calligraphy characters 2",
+                                                         "calligraphy characters 3", "calligraphy characters 4"};
+constexpr int format_with_ink = 4;  // in 3, which no release wrote, ink had knots at other places
 constexpr std::size_t max_file_bytes = 64 << 20;  // twice the size of all Make Me a Hanzi [bytes]
 constexpr std::string_view licence_text_key = "licence-text";
 
@@ -74,7 +74,7 @@ class Parser : private LineReader {
     if (is_utf16(line())) fail("the file is UTF-16, not UTF-8: save it as UTF-8");
     const auto found = std::find(first_lines.begin(), first_lines.end(), line());
     if (found == first_lines.end()) {
-      fail("expected " + in_quotes(first_lines[1]) + " (or 1, or 3 with ink), found " + in_quotes(line()));
+      fail("expected " + in_quotes(first_lines[1]) + " (or 1, or 4 with ink), found " + in_quotes(line()));
     }
     format_ = static_cast<int>(found - first_lines.begin()) + 1;
   }
@@ -334,7 +334,7 @@ void write_characters(std::ostream& out, const CharacterList& set) {
   }
   const bool has_ink = std::any_of(set.characters.begin(), set.characters.end(),
                                    [](const Character& character) { return !character.physics.ink.empty(); });
-  out << first_lines[has_ink ? 2 : 1] << '\n';
+  out << first_lines[has_ink ? format_with_ink - 1 : 1] << '\n';
   if (!provenance.source.empty()) out << "source " << provenance.source << '\n';
   if (!provenance.licence.empty()) out << "licence " << provenance.licence << '\n';
   if (!provenance.attribution.empty()) out << "attribution " << provenance.attribution << '\n';

@@ -248,7 +248,7 @@ TEST_CASE("strokes are imported with ink if the source has outlines and it is as
   CHECK(import_characters(directory.path(), options).list.characters[0].physics.ink.empty());
   const TemporaryDirectory stored;
   stored.write("bar.txt",
-               "calligraphy characters 3\ncharacter 一\nstroke 1 0.1,0.5 0.9,0.5\nink 0 0 1 1 1 1 1 1 1 1\n");
+               "calligraphy characters 4\ncharacter 一\nstroke 1 0.1,0.5 0.9,0.5\nink 0 0 1 1 1 1 1 1 1 1\n");
   CHECK(import_characters(stored.path() / "bar.txt").list.characters[0].physics.ink.size() == 1);
   CHECK(import_characters(stored.path() / "bar.txt", options).list.characters[0].physics.ink.empty());
   options.ink = InkDetail::half_widths;

@@ -99,13 +99,13 @@ TEST_CASE("ink reads back identically, and the format is that of older programs 
     calligraphy_test::add_ink(set.characters[i], max_ink_length, random);
     if (i % 4 == 0) set.characters[i].physics.ink[0].offsets.fill(0.0);
   }
-  CHECK(begins_with(write(set), 3));
+  CHECK(begins_with(write(set), 4));
   CHECK(same(read(write(set)), set));
   CHECK(write(read(write(set))) == write(set));
 }
 
 TEST_CASE("ink is a line of numbers after each stroke of a character, with offsets or without, and shifts of corners", "[model]") {
-  const CharacterList set = read("calligraphy characters 3\ncharacter \xE4\xB8\x80\nstroke 1 0,0 1,1 | 1 2\n\n"
+  const CharacterList set = read("calligraphy characters 4\ncharacter \xE4\xB8\x80\nstroke 1 0,0 1,1 | 1 2\n\n"
                                  "ink 0.01 0.02 1e-1 0 1 .4 .5 .6 .7 .8 # thick\n"
                                  "stroke 1 0,1 1,0\n  ink 0 0 0 0 0 0 0 0 0 0 -1 .2 .3 .4 .5 .6 .7 1\n"
                                  "character \xE4\xBA\x8C\nstroke 1 0,0 1,1\n"
@@ -124,15 +124,16 @@ TEST_CASE("ink is a line of numbers after each stroke of a character, with offse
 
 TEST_CASE("each kind of malformed ink is reported with file, line and value", "[model]") {
   const std::string plain = "\ncharacter \xE5\x8C\x97\nstroke 1 0,0 1,1\n";
-  const std::string north = "calligraphy characters 3" + plain;
+  const std::string north = "calligraphy characters 4" + plain;
   const std::string ink = "ink 0 0 .1 .1 .1 .1 .1 .1 .1 .1";
-  const std::string version = "'calligraphy characters 3' as the first statement";
+  const std::string version = "'calligraphy characters 4' as the first statement";
   const struct {
     std::string text, line, value;
   } cases[] = {
       {"calligraphy characters 2" + plain + ink, "test.txt:4: ", version + ", not 2"},
+      {"calligraphy characters 3" + plain + ink, "test.txt:4: ", version + ", not 3"},
       {"calligraphy characters 1" + plain + ink, "test.txt:4: ", version + ", not 1"},
-      {"calligraphy characters 3\n" + ink, "test.txt:2: ", "before any stroke"},
+      {"calligraphy characters 4\n" + ink, "test.txt:2: ", "before any stroke"},
       {north + ink + "\ncharacter \xE4\xB8\x80\n" + ink, "test.txt:6: ", "before any stroke"},
       {north + ink + "\n" + ink, "test.txt:5: ", "second line of ink"},
       {north + "ink", "test.txt:4: ", "10 or 18 numbers, not 0"},
@@ -216,7 +217,7 @@ TEST_CASE("each kind of malformed line is reported with file, line and value", "
       {"", "test.txt: ", "empty"},
       {"\n\n# nothing\n", "test.txt: ", "empty"},
       {"characters\n", "test.txt:1: ", "'characters'"},
-      {"\n\ncalligraphy characters 4\n", "test.txt:3: ", "'calligraphy characters 4'"},
+      {"\n\ncalligraphy characters 5\n", "test.txt:3: ", "'calligraphy characters 5'"},
       {head + "strokes 1 0,0 1,1\n", "test.txt:2: ", "'strokes'"},
       {head + "stroke 1 0,0 1,1\n", "test.txt:2: ", "before any character"},
       {head + "character \xE5\x8C\n", "test.txt:2: ", "byte 0"},

@@ -165,7 +165,7 @@ class Refusals(ProgramTest):
             self.assert_refused(1, ["info", "永", "--characters", name], f"{name}: ")  # a source, but damaged
         (self.directory / "binary").write_bytes(b"\0\x9b1m\xff" + "永\u009b".encode() + b"\x7f")
         self.assert_refused(1, ["info", "binary"],
-                            "binary:1: expected 'calligraphy characters 2' (or 1, or 3 with ink), found '??1m?永??'\n")
+                            "binary:1: expected 'calligraphy characters 2' (or 1, or 4 with ink), found '??1m?永??'\n")
         (self.directory / "long").write_text("ab" + 30 * "永")
         self.assert_refused(1, ["info", "long"], "found 'ab" + 19 * "永" + "...'\n")
 
