@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <iterator>
 #include <limits>
 
 #include <calligraphy/judge/remark_text.hpp>
@@ -14,12 +15,66 @@ namespace {
 
 constexpr std::size_t max_remarks = 12;
 
+// Of arrows.
+constexpr double chord_reach = 3.0;       ///< of the chord each way, in lengths of the head: about 0.1 em
+constexpr double least_agreement = 0.8;   ///< cosine between the path under the head and the chord
+constexpr double least_straightness = 0.6;
+constexpr std::size_t quarter = 8;        ///< of a path, in steps
+constexpr double preferred_place = 0.6;   ///< share of the path: clear of the number and of what crosses the middle
+
 std::vector<Point> evenly_spaced(std::span<const Point> path) { return points_along(path, path_length(path), 32); }
 
 Point tangent(const std::vector<Point>& points, std::size_t at) {
   const std::size_t next = std::min(at + 2, points.size() - 1);
   const Point along = points[next] - points[at];
   return along.norm() > 0.0 ? Point(along.normalized()) : Point(1.0, 0.0);
+}
+
+/// Where a path, followed from a point on it towards its end or its start, first is `radius` from that point; if nowhere,
+/// its last point there.
+struct Reach {
+  Point point;
+  double way;   ///< along the path
+  bool leaves;  ///< the circle
+};
+
+template <class Iterator>
+Reach reach(const Point& centre, Iterator next, Iterator end, double radius) {
+  Point inside = centre;
+  double way = 0.0;
+  for (; next != end; ++next) {
+    const Point step = *next - inside, from = inside - centre;
+    if ((*next - centre).norm() < radius) {
+      inside = *next;
+      way += step.norm();
+      continue;
+    }
+    // |from + t step| = radius, with the larger t
+    const double a = step.squaredNorm(), b = from.dot(step), c = from.squaredNorm() - radius * radius;
+    const double t = (std::sqrt(std::max(b * b - a * c, 0.0)) - b) / a;
+    return {inside + t * step, way + t * step.norm(), true};
+  }
+  return {inside, way, false};
+}
+
+/// How a path passes one of its points, between where it comes within a radius and where it first leaves again.
+struct Passage {
+  Point chord;
+  double straightness;  ///< length of the chord over that of the path, 1 of a line
+  bool is_whole;  ///< no end of the path is within the radius
+};
+
+Passage passage(std::span<const Point> path, std::size_t before, const Point& centre, double radius) {
+  const auto next = path.begin() + static_cast<std::ptrdiff_t>(before) + 1;
+  const Reach out = reach(centre, next, path.end(), radius);
+  const Reach in = reach(centre, std::make_reverse_iterator(next), std::make_reverse_iterator(path.begin()), radius);
+  const Point chord = out.point - in.point;
+  return {chord, chord.norm() / (in.way + out.way), in.leaves && out.leaves};
+}
+
+double cosine(const Point& a, const Point& b) {
+  const double norms = a.norm() * b.norm();
+  return norms > 0.0 ? a.dot(b) / norms : -1.0;
 }
 
 bool is_about(const StrokeRemark& remark, int path) {
@@ -94,16 +149,42 @@ void draw_path(pugi::xml_node parent, std::span<const Point> points, const char*
   svg::add(parent, "path", {{"d", svg::line_path(points)}, {"stroke", colour}});
 }
 
+std::optional<Arrow> arrow_on(std::span<const Point> path, double length) {
+  const double whole = path_length(path);
+  if (!(whole >= 1.5 * length)) return std::nullopt;
+  const double step = whole / std::clamp(std::ceil(4.0 * whole / length), 32.0, 400.0);
+  const std::vector<Point> even = points_along(path, whole, 4 * quarter + 1);
+  std::optional<Arrow> best;
+  double most = -std::numeric_limits<double>::infinity(), walked = 0.0, at = step;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Point along = path[i + 1] - path[i];
+    for (; at < walked + along.norm(); at += step) {
+      const Point middle = path[i] + (at - walked) / along.norm() * along;
+      const Passage head = passage(path, i, middle, 0.5 * length);
+      const Point chord = passage(path, i, middle, chord_reach * length).chord;
+      const double agreement = cosine(head.chord, chord);
+      if (!head.is_whole || head.straightness < least_straightness) continue;
+      if (chord.norm() < length || agreement < least_agreement) continue;
+      const auto nearest = static_cast<std::size_t>(at / whole * 4.0 * quarter);
+      const Point course = even[std::min(nearest + quarter, 4 * quarter)] - even[nearest - std::min(nearest, quarter)];
+      const double score = agreement + head.straightness + 0.5 * cosine(head.chord, course) -
+                           0.5 * std::abs(at / whole - preferred_place);
+      if (score <= most) continue;
+      most = score;
+      best = {middle, (head.chord.normalized() + chord.normalized()).normalized()};
+    }
+    walked += along.norm();
+  }
+  return best;
+}
+
 void draw_arrow(pugi::xml_node parent, std::span<const Point> points, const char* colour, double length) {
-  if (path_length(points) < 1.5 * length) return;
-  const std::vector<Point> even = evenly_spaced(points);
-  const std::size_t middle = even.size() * 3 / 5;
-  const Point along = even[middle + 1] - even[middle - 1];
-  if (along.norm() == 0.0) return;
-  const Point forward = 0.5 * length * along.normalized();
+  const std::optional<Arrow> arrow = arrow_on(points, length);
+  if (!arrow) return;
+  const Point forward = 0.5 * length * arrow->direction;
   const Point across(-0.6 * forward.y(), 0.6 * forward.x());
-  const Point back = even[middle] - forward;
-  const std::vector<Point> head = {even[middle] + forward, back + across, back - across};
+  const Point back = arrow->middle - forward;
+  const std::vector<Point> head = {arrow->middle + forward, back + across, back - across};
   svg::add(parent, "path", {{"d", svg::polygon_path(head)}, {"fill", colour}, {"stroke", "none"}});
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,7 +55,17 @@ pugi::xml_node add_lines(pugi::xml_node root, const char* name, double width);
 
 void draw_path(pugi::xml_node parent, std::span<const Point> points, const char* colour);
 
-/// A head in the middle of the path that shows where it goes, unless the path is too short to show it.
+/// The head of an arrow.
+struct Arrow {
+  Point middle;
+  Point direction;  ///< of norm 1
+};
+
+/// Where a head of this length tells best which way a path goes: where the path under it runs straight, and as the path
+/// does as a whole some three lengths each way, which a jitter of the pen does not. Nothing if it does so nowhere.
+std::optional<Arrow> arrow_on(std::span<const Point> path, double length);
+
+/// A head on the path that shows where it goes, if it can be shown.
 void draw_arrow(pugi::xml_node parent, std::span<const Point> points, const char* colour, double length);
 
 /// Groups for numbers, with halos below all of them.

@@ -279,6 +279,40 @@ TEST_CASE("each pen-down has a number in writing order at its start, and an arro
   CHECK(all(document, "//g[@class='standard-number']").empty());
 }
 
+TEST_CASE("an arrow goes the way of its jittery trace as a whole, and is left out where the trace has none", "[practice]") {
+  const PracticePage page = page_of("一");
+  const auto arrows = [&page](const PenPath& path) {
+    Hand hand(page);
+    hand.draw(path, false);
+    return all(xml(character_picture(page, hand.recording, plain_scores(page, 1), 0, "title")),
+               "//g[@class='attempt']/path[@stroke='none']");
+  };
+  calligraphy_test::Sequence random(3);
+  std::size_t drawn = 0;
+  for (int trace = 0; trace < 200; ++trace) {
+    const double size = 0.2 + 0.001 * trace, from = 0.1 * trace;  // of a quarter circle about its middle
+    PenPath path;
+    for (double angle = from; angle < from + 1.57; angle += 0.008 / size) {
+      const Point on = Point::Constant(0.5) + size * Point(std::cos(angle), std::sin(angle));
+      path.push_back(on + random.point(-0.004, 0.004));
+      const bool wavers = random.point(0.0, 1.0).x() < 0.15;
+      for (int i = 0; wavers && i < 6; ++i) path.push_back(on + random.point(-0.02, 0.02));
+    }
+    for (const auto& arrow : arrows(path)) {
+      const std::vector<Point> head = points(arrow);
+      const Point back = 0.5 * (head[1] + head[2]), ahead = (head[0] - back).normalized();
+      const Point out = (0.5 * (head[0] + back) - Point(56.0, 60.0)).normalized();  // from the middle [mm]
+      CAPTURE(trace);
+      CHECK(ahead.dot(Point(out.y(), -out.x())) > 0.7);  // downwards is positive, so counterclockwise
+      ++drawn;
+    }
+  }
+  CHECK(drawn > 150);
+  PenPath shading;
+  for (int i = 0; i < 150; ++i) shading.emplace_back(0.2 + 0.003 * i, i % 2 == 0 ? 0.47 : 0.53);
+  CHECK(arrows(shading).empty());
+}
+
 TEST_CASE("an attempt that did not count is faint and dashed, and then strokes have numbers of their own", "[practice]") {
   const PracticePage page = page_of("十");
   Hand hand(page);
