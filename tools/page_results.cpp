@@ -10,23 +10,61 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/model/character_list.hpp>
+#include <calligraphy/model/typical_stroke.hpp>
+#include <calligraphy/pictures/chinese_font.hpp>
 #include <calligraphy/pictures/error_plot.hpp>
 #include <calligraphy/pictures/picture.hpp>
 #include <calligraphy/pictures/plot.hpp>
 #include <calligraphy/practice/recording_file.hpp>
 #include <calligraphy/practice/score.hpp>
 
+#include "no_font.hpp"
 #include "options.hpp"
 
 namespace calligraphy::tools {
 namespace {
 
 constexpr double millimetres = 1e3;
+constexpr char32_t first_of_cjk = 0x2e80;  ///< what comes before, most fonts have
 
 /// A cell of a table, empty for what was not measured.
 std::string cell(double value, int decimals) { return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : ""; }
 
+/// "永", or the number and the names of a typical stroke that is written alone: "6 捺 nà".
+std::string name_in_title(const Character& character) {
+  const bool is_stroke = typical_stroke_characters().find(character.code) != nullptr;
+  if (!is_stroke || character.stroke_count() != 1) return encode_utf8(character.code);
+  const TypicalStroke& stroke = typical_stroke(character.sequence.stroke_ids[0]);
+  return fmt::format("{} {} {}", stroke.id, stroke.name, stroke.pinyin);
+}
+
+/// The names after each other, those of strokes apart: "永北, 6 捺 nà".
+std::string names_in_title(const PracticePage& page) {
+  std::string names;
+  bool stands_apart = false;
+  for (const PlacedCharacter& placed : page.characters) {
+    const std::string name = name_in_title(placed.character);
+    const bool is_stroke = name != encode_utf8(placed.character.code);
+    if (!names.empty() && (is_stroke || stands_apart)) names += ", ";
+    names += name;
+    stands_apart = is_stroke;
+  }
+  return names;
+}
+
 }  // namespace
+
+void warn_of_missing_font(const std::vector<Character>& characters, const Language& language) {
+  std::string words = language.text("picture.written");
+  for (const Character& character : characters) words += name_in_title(character);
+  std::string chinese;
+  for (const char32_t code : decode_utf8(words)) {
+    if (code >= first_of_cjk) chinese += encode_utf8(code);
+  }
+  if (chinese.empty() || !fonts_can_be_found() || !chinese_font(chinese).empty()) return;
+  spdlog::warn("{}", no_font_has("all the Chinese in the pictures, where boxes may stand instead"));
+}
 
 std::vector<Result> results_of(const Recording& recording, const PageInRun& where, const JudgeTolerances& tolerances) {
   const RecordingSetup& setup = *recording.setup;
@@ -80,14 +118,12 @@ void draw_page(const Recording& recording, const PageInRun& where, const Picture
   const auto draw = [&](const std::string& name, const auto& picture) {
     if (!options.is_stopped()) try_to_write(name, picture, out, warnings);
   };
-  std::string text;
   for (std::size_t i = 0; i < setup.page.characters.size(); ++i) {
     const char32_t code = setup.page.characters[i].character.code;
     const auto index = static_cast<int>(i);
-    text += encode_utf8(code);
     const std::string stem =
         fmt::format("{:02}-{}-{}", where.first_position + index, name_in_file(code), to_string(setup.mode));
-    const std::string heading = title(encode_utf8(code));
+    const std::string heading = title(name_in_title(setup.page.characters[i].character));
     draw(stem + "-writing.svg", [&] {
       return character_picture(setup.page, recording, scores, index, heading, options.style, options.language);
     });
@@ -99,7 +135,7 @@ void draw_page(const Recording& recording, const PageInRun& where, const Picture
   }
   if (setup.page.characters.size() < 2) return;
   draw(fmt::format("page-{}-{}-writing.svg", where.page, to_string(setup.mode)), [&] {
-    return page_picture(setup.page, recording, scores, title(text), options.style, options.language);
+    return page_picture(setup.page, recording, scores, title(names_in_title(setup.page)), options.style, options.language);
   });
 }
 

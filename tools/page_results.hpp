@@ -9,6 +9,7 @@
 
 #include <calligraphy/judge/judge_tolerances.hpp>
 #include <calligraphy/judge/language.hpp>
+#include <calligraphy/model/character.hpp>
 #include <calligraphy/pictures/stroke_style.hpp>
 #include <calligraphy/practice/recording.hpp>
 
@@ -44,6 +45,9 @@ struct PictureOptions {
 /// and added to `warnings`.
 void draw_page(const Recording& recording, const PageInRun& where, const PictureOptions& options, OutputDirectory& out,
                std::vector<std::string>& warnings);
+
+/// Says so if fonts can be found, but none has the Chinese that pictures of these characters will contain.
+void warn_of_missing_font(const std::vector<Character>& characters, const Language& language);
 
 /// Draws the errors of a run without and with force, "error-by-character.svg", if there are enough pairs of runs to show
 /// an effect. Failing is told likewise.

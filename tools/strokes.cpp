@@ -14,6 +14,7 @@
 #include <calligraphy/pictures/picture.hpp>
 
 #include "commands.hpp"
+#include "no_font.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
 
@@ -38,10 +39,9 @@ void draw_strokes(const StrokesArguments& options) {
   const std::string picture = typical_strokes_picture(options.style, font);
   write_output(options.out, pdf ? pdf_of_svg(picture) : picture);
   if (!font.empty()) return;
-  spdlog::warn(fonts_can_be_found()
-                   ? "no installed font has the Chinese names, which are left out: install one, such as the package "
-                     "fonts-noto-cjk or fonts-wqy-microhei"
-                   : "the Chinese names are left out, because this build cannot find a font: fontconfig was missing");
+  spdlog::warn("{}", fonts_can_be_found() ? no_font_has("the Chinese names, which are left out")
+                                          : "the Chinese names are left out, because this build cannot find a font: "
+                                            "fontconfig was missing");
 }
 
 }  // namespace

@@ -300,6 +300,11 @@ class WriteRun {
     const bool was_stopped = pen_.interrupted();  // what was written until then is drawn
     const PictureOptions options = {options_.style, options_.language, !drawn_.empty() && can_plot(summary_.warnings),
                                     [&] { return !was_stopped && pen_.interrupted(); }, {}};
+    std::vector<Character> characters;
+    for (const Sheet& sheet : sheets_) {
+      for (const PlacedCharacter& placed : sheet.page.characters) characters.push_back(placed.character);
+    }
+    warn_of_missing_font(characters, options_.language);
     for (const auto& [name, where] : drawn_) {
       draw_page(open_recording(out.reserve(name)).recording, where, options, out, summary_.warnings);
     }

@@ -245,6 +245,26 @@ class Write(ProgramTest):
             groups = list(xml.parse(out / "01-人-force-writing.svg").getroot().iter("{http://www.w3.org/2000/svg}g"))
             self.assertEqual([g.get(style) for g in groups if g.get("class") == "template"], ["#c5d6f7"])
 
+    def test_titles_name_characters_and_typical_strokes(self):
+        self.run_program("write", "人㇏⑰", "--mode", "vision", "--out", "out")
+        titles = [xml.parse(self.directory / "out" / f"{name}-vision-writing.svg").getroot()[0].text
+                  for name in ("01-人", "02-㇏", "03-⑰", "page-1")]
+        what = ["人", "6 捺 nà", "17 横撇 héngpiě", "人, 6 捺 nà, 17 横撇 héngpiě"]
+        self.assertEqual(titles, [f"{each}, vision only, Phantom Desktop" for each in what])
+
+    def test_without_a_font_for_the_pictures_that_is_told_once_and_they_keep_their_chinese(self):
+        (self.directory / "fonts.conf").write_text("<fontconfig/>")
+        fonts = {"FONTCONFIG_FILE": str(self.directory / "fonts.conf")}
+        poster = self.run_program("strokes", "-o", "-", environment=fonts).stderr
+        done = self.run_program("write", "人㇏", "--out", "out", environment=fonts)
+        self.assertIn(">人, vision only", (self.directory / "out/01-人-vision-writing.svg").read_text())
+        told = [line for line in done.stderr.splitlines() if "font" in line]
+        if "fontconfig was missing" in poster:  # fonts cannot be found
+            return self.assertEqual(told, [])
+        self.assertEqual(len(told), 1, done.stderr)
+        self.assertRegex(told[0], r"\Acalligraphy: warning: no installed font has [^\n]*Chinese in the pictures")
+        self.assertEqual(told[0].partition(": install ")[2], poster.strip().partition(": install ")[2])
+
     def test_a_run_is_reproducible_to_the_last_digit(self):
         for out in ("a", "b"):
             self.run_program("write", "人", "--out", out, "--seed", "7")
