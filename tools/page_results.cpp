@@ -135,7 +135,8 @@ void draw_page(const Recording& recording, const PageInRun& where, const Picture
   }
   if (setup.page.characters.size() < 2) return;
   draw(fmt::format("page-{}-{}-writing.svg", where.page, to_string(setup.mode)), [&] {
-    return page_picture(setup.page, recording, scores, title(names_in_title(setup.page)), options.style, options.language);
+    const std::string heading = title(names_in_title(setup.page));
+    return page_picture(setup.page, recording, scores, heading, options.style, options.language);
   });
 }
 

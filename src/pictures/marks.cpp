@@ -30,7 +30,7 @@ Point tangent(const std::vector<Point>& points, std::size_t at) {
   return along.norm() > 0.0 ? Point(along.normalized()) : Point(1.0, 0.0);
 }
 
-/// Where a path, followed from a point on it towards its end or its start, first is `radius` from that point; if nowhere,
+/// Where a path, followed from a point on it towards its end or its start, first is so far from that point; if nowhere,
 /// its last point there.
 struct Reach {
   Point point;
@@ -75,6 +75,28 @@ Passage passage(std::span<const Point> path, std::size_t before, const Point& ce
 double cosine(const Point& a, const Point& b) {
   const double norms = a.norm() * b.norm();
   return norms > 0.0 ? a.dot(b) / norms : -1.0;
+}
+
+struct Head {
+  Arrow arrow;
+  double merit;  ///< of its place
+};
+
+/// A head at a point of a path, if the path under it runs as it does as a whole.
+std::optional<Head> head_at(std::span<const Point> path, std::size_t before, const Point& middle, double length) {
+  const Passage under = passage(path, before, middle, 0.5 * length);
+  if (!under.is_whole || under.straightness < least_straightness) return std::nullopt;
+  const Point chord = passage(path, before, middle, chord_reach * length).chord;
+  const double agreement = cosine(under.chord, chord);
+  if (chord.norm() < length || agreement < least_agreement) return std::nullopt;
+  const Point direction = (under.chord.normalized() + chord.normalized()).normalized();
+  return Head{{middle, direction}, agreement + under.straightness};
+}
+
+/// From a quarter of the path before a share of it to a quarter after.
+Point quarters_about(const std::vector<Point>& even, double share) {
+  const auto at = static_cast<std::size_t>(share * 4.0 * quarter);
+  return even[std::min(at + quarter, 4 * quarter)] - even[at - std::min(at, quarter)];
 }
 
 bool is_about(const StrokeRemark& remark, int path) {
@@ -160,18 +182,14 @@ std::optional<Arrow> arrow_on(std::span<const Point> path, double length) {
     const Point along = path[i + 1] - path[i];
     for (; at < walked + along.norm(); at += step) {
       const Point middle = path[i] + (at - walked) / along.norm() * along;
-      const Passage head = passage(path, i, middle, 0.5 * length);
-      const Point chord = passage(path, i, middle, chord_reach * length).chord;
-      const double agreement = cosine(head.chord, chord);
-      if (!head.is_whole || head.straightness < least_straightness) continue;
-      if (chord.norm() < length || agreement < least_agreement) continue;
-      const auto nearest = static_cast<std::size_t>(at / whole * 4.0 * quarter);
-      const Point course = even[std::min(nearest + quarter, 4 * quarter)] - even[nearest - std::min(nearest, quarter)];
-      const double score = agreement + head.straightness + 0.5 * cosine(head.chord, course) -
-                           0.5 * std::abs(at / whole - preferred_place);
-      if (score <= most) continue;
-      most = score;
-      best = {middle, (head.chord.normalized() + chord.normalized()).normalized()};
+      const std::optional<Head> head = head_at(path, i, middle, length);
+      if (!head) continue;
+      const double share = at / whole;
+      const double course = cosine(head->arrow.direction, quarters_about(even, share));
+      const double merit = head->merit + 0.5 * course - 0.5 * std::abs(share - preferred_place);
+      if (merit <= most) continue;
+      most = merit;
+      best = head->arrow;
     }
     walked += along.norm();
   }

@@ -279,7 +279,7 @@ TEST_CASE("each pen-down has a number in writing order at its start, and an arro
   CHECK(all(document, "//g[@class='standard-number']").empty());
 }
 
-TEST_CASE("an arrow goes the way of its jittery trace as a whole, and is left out where the trace has none", "[practice]") {
+TEST_CASE("an arrow goes the way of its jittery trace as a whole, and is left out where it has none", "[practice]") {
   const PracticePage page = page_of("一");
   const auto arrows = [&page](const PenPath& path) {
     Hand hand(page);
