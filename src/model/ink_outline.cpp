@@ -11,6 +11,7 @@
 #include <calligraphy/model/stroke_polyline.hpp>
 
 #include "base/require.hpp"
+#include "stroke_ends.hpp"
 
 namespace calligraphy {
 namespace {
@@ -81,9 +82,6 @@ std::vector<double> corners_of(const Stroke& stroke) {
   }
   return arcs;
 }
-
-bool ends_in_hook(const TypicalStroke& type) noexcept { return type.code.ends_with('G'); }
-bool ends_in_na(const TypicalStroke& type) noexcept { return type.code.ends_with('N'); }
 
 /// Appends `count` knots evenly between the last one and `to`.
 void append_between(std::vector<double>& knots, double to, std::size_t count) {

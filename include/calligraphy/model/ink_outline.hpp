@@ -34,7 +34,8 @@ struct InkLine {
 InkLine ink_line(const Stroke& stroke, double spacing = 0.004);
 
 /// The ink of a stroke as discs about the points of its line, shifted and as wide as the profile says: both are linear
-/// between knots. Where shifts take the discs apart, more discs fill the gap. @throws ValueError if it has no ink or the spacing is not positive
+/// between knots. Where shifts take the discs apart, more discs fill the gap.
+/// @throws ValueError if it has no ink or the spacing is not positive
 std::vector<InkDisc> ink_discs(const Stroke& stroke, double spacing = 0.004);
 
 /// Outline of the ink of a stroke: a closed polygon, counter-clockwise, whose last vertex is joined to the first,

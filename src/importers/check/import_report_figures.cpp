@@ -6,6 +6,8 @@
 #include <calligraphy/model/set_encoding.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
+#include "model/stroke_ends.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -37,8 +39,6 @@ InkFigures figures_of(const char* name, const char* key, const InkMeasures& ink,
           share_above(ink.uncovered, ink_off),
           share_above(ink.beyond, ink_off)};
 }
-
-bool ends_in_hook(int id) { return typical_stroke(id).name.ends_with("钩"); }
 
 }  // namespace
 
@@ -107,7 +107,7 @@ std::vector<NotchFigures> notch_figures(const ImportReport& report) {
   for (int id = 1; id <= typical_stroke_count && !report.ink.strokes.empty(); ++id) {
     int strokes = 0, of_ink = 0, of_source = 0;
     for (std::size_t i = 0; i < report.measures.size(); ++i) {
-      if (report.measures[i].id != id || !ends_in_hook(id)) continue;
+      if (report.measures[i].id != id || !ends_in_hook(typical_stroke(id))) continue;
       ++strokes;
       of_ink += report.ink.notches[i] > notch_angle ? 1 : 0;
       of_source += report.ink.source_notches[i] > notch_angle ? 1 : 0;
