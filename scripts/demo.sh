@@ -17,7 +17,7 @@ In $PWD/demo, which the next run of this script replaces:
   NN-CHARACTER-MODE-writing.svg what was written of a character: strokes numbered, mistakes red
   page-N-MODE-writing.svg       the whole page
   NN-CHARACTER-force-plot.svg   force over time
-  page-N-MODE-1.recording.gz    everything that came in; `calligraphy replay` makes the forces again
+  page-N-MODE-1.recording.gz    everything that came in; \`calligraphy replay\` makes the forces again
   strokes.csv                   a line per stroke
   summary.json                  the table above, scores, and the reason of each mistake
 
