@@ -18,12 +18,15 @@
 #include "judge/reading/other_character.hpp"
 #include "judge/reading/stroke_direction.hpp"
 #include "judge/reading/writing_order.hpp"
+#include "judge/remarks/form_remarks.hpp"
 #include "judge/remarks/remarks_on.hpp"
 
 namespace calligraphy {
 namespace {
 
 using detail::judge_constants;
+
+constexpr double sure_evidence = JudgeTolerances::normal().evidence;
 
 /// Among the pen-downs without a stroke directly before or after this one, one that runs forwards along the stroke.
 std::optional<std::size_t> correction_beside(const StrokeReading& reading, std::size_t path, std::size_t stroke) {
@@ -101,8 +104,9 @@ struct FormMatch {
   std::unique_ptr<const StrokeOutlines> outlines;  ///< referred to by the costs of the reading
   StrokeReading reading;
   MatchResult result;
-  double price = 0.0;        ///< price of the reading [em]
-  std::size_t mistakes = 0;  ///< number of remarks at JudgeTolerances::normal(), whatever is reported in the end
+  double price = 0.0;               ///< price of the reading [em]
+  std::size_t mistakes = 0;         ///< number of remarks at JudgeTolerances::normal(), whatever is reported in the end
+  std::vector<StrokeRemark> form = {};  ///< remarks on form
 };
 
 FormMatch match_form(const Character& character, std::span<const PenPath> paths, std::span<const PenPath> steady) {
@@ -140,6 +144,16 @@ FormMatch match_form(const Character& character, std::span<const PenPath> paths,
                                 {reading.order_evidence, JudgeTolerances::normal().evidence})
                          .size();
   return matched;
+}
+
+/// Judges the form, of a reading that may be chosen.
+void judge_form(FormMatch& matched, const Character& character, std::span<const PenPath> steady, double least) {
+  const CharacterForm form(middle_lines(character));
+  const std::vector<DrawnStroke>& drawn = matched.result.drawn;
+  matched.form = form_remarks(form, written_form(form, steady, drawn), drawn, std::min(least, sure_evidence));
+  matched.mistakes += static_cast<std::size_t>(
+      std::count_if(matched.form.begin(), matched.form.end(),
+                    [](const StrokeRemark& remark) { return remark.evidence >= sure_evidence; }));
 }
 
 }  // namespace
@@ -192,10 +206,15 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   for (const Character& character : accepted) {
     least_price = std::min(least_price, matched.emplace_back(match_form(character, paths, steady)).price);
   }
+  const auto is_dear = [&](const FormMatch& form) {
+    return form.price > judge_constants.max_similar_price * least_price;
+  };
+  for (std::size_t i = 0; i < accepted.size(); ++i) {
+    if (!is_dear(matched[i])) judge_form(matched[i], accepted[i], steady, tolerances.evidence);
+  }
   // Among forms of about the same price, the one with the fewest mistakes comes first.
   const auto rank = [&](const FormMatch& form) {
-    const bool is_dear = form.price > judge_constants.max_similar_price * least_price;
-    return std::tuple(is_dear, is_dear ? 0 : form.mistakes, form.price);
+    return std::tuple(is_dear(form), is_dear(form) ? 0 : form.mistakes, form.price);
   };
   for (std::size_t i = 0; i < accepted.size(); ++i) {
     const FormMatch& next = matched[i];
@@ -212,11 +231,22 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
     other = other_character(others->features(), accepted[compared], steady, matched[compared].reading);
     if (other) best = compared;
   }
+  const std::size_t whole_as = best_of_same_count.value_or(best);
+  const auto whole = whole_fault(CharacterForm(middle_lines(accepted[whole_as])), steady);
+  if (whole) best = whole_as;
   MatchResult result = std::move(matched[best].result);
   result.accepted = static_cast<int>(best);
   result.character = accepted[best];
+  if (whole) {
+    result.remarks = {whole_remark(*whole, paths)};
+    return result;
+  }
   result.remarks = remarks_on(accepted[best], paths, result.drawn, result.fit,
                               {matched[best].reading.order_evidence, tolerances.evidence}, other);
+  if (other && !other->is_lookalike) return result;
+  for (const StrokeRemark& remark : matched[best].form) {
+    if (remark.evidence >= tolerances.evidence) result.remarks.push_back(remark);
+  }
   return result;
 }
 

@@ -27,7 +27,8 @@ BACKENDS = ["phantom", "openhaptics"]  # folders beneath devices
 
 # The folders of a component, each with those of them whose headers it may include.
 FOLDERS = {"importers": {"read": [], "fit": [], "check": ["read", "fit"]},
-           "judge": {"pens": [], "reading": ["pens"], "remarks": ["pens", "reading"]}}
+           "judge": {"pens": [], "reading": ["pens"], "form": ["pens", "reading"],
+                     "remarks": ["pens", "reading", "form"]}}
 
 # From devices, render may include only plain structs and the arithmetic of one estimator: no device, no loop.
 PLAIN_DEVICE_HEADERS = {"capabilities", "device_state", "velocity_estimator"}

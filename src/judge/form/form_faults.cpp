@@ -1,0 +1,355 @@
+#include "form_faults.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "judge/judge_constants.hpp"
+
+namespace calligraphy {
+namespace {
+
+using detail::judge_constants;
+using FaultKind = StrokeRemarkKind;
+
+// Places along two strokes, as shares, up to which a crossing is one that the character has [1].
+constexpr double same_crossing = 0.35;
+constexpr double touching_depth = 0.05, least_added_depth = 0.03;  // of crossings [em]
+constexpr double least_depth = 0.08;                               // of a crossing that must not be lacking [em]
+constexpr double met_distance = 0.06;                              // of an end that still lies on a stroke [em]
+constexpr double at_corner = 0.03, off_corner = 0.05, in_course = 0.08, longest_corner = 0.2;  // tails [em]
+constexpr double closer = 0.6;                   // gap over that of the character below which strokes come too close [1]
+constexpr double least_bow = 0.05, kept_bend = 0.3;   // bow of a bent stroke [em], and share of it that is enough [1]
+constexpr double most_bent = 0.2, free_bow = 0.08;    // bows over lengths [1]
+constexpr double shortest_shaped = 0.12, shortest_drawn = 0.1;  // strokes that have a shape [em]
+constexpr double full_bend_length = 0.3, full_wave_length = 0.4;  // lengths from which a bend or a wave counts in full [em]
+constexpr double least_length_change = 0.3, least_length_difference = 0.2;  // logarithm [1], and [em]
+constexpr double shifted = 0.4;  // mean distance from the place, over the offset, once the stroke is moved back [1]
+constexpr double least_longer = 0.1;                                         // of the wrong stroke [em]
+
+double share_left(const Beside& now, double gap) { return gap / std::max(now.gap, 1e-6); }
+
+/// The bow of the character's stroke that the drawn one lacks [em].
+double lacking_bow(const FormLine& drawn, const FormLine& stroke) {
+  const double wanted = bow(stroke);
+  if (std::abs(wanted) < least_bow) return 0.0;
+  const double share = bow(drawn) / std::max(drawn.length(), 1e-6) / (wanted / std::max(stroke.length(), 1e-6));
+  return share >= kept_bend ? 0.0 : (1.0 - std::max(share, 0.0)) * std::abs(wanted);
+}
+
+struct Bend {
+  double evidence = 0.0;
+  double amount = 0.0;  ///< bow that is too much [em]
+  bool is_wavy = false;
+};
+
+/// Evidence that a stroke is bent or wavy where it should not be.
+Bend bend(const FormLine& drawn, const FormLine& stroke) {
+  const double length = drawn.length();
+  const double has = bow(drawn) / std::max(length, 1e-6), wanted = bow(stroke) / std::max(stroke.length(), 1e-6);
+  if (std::abs(wanted) >= most_bent) return {};
+  const bool is_bowed = std::abs(wanted) >= least_bow;
+  const double more = is_bowed ? std::abs(has - wanted) - free_bow : std::abs(has) - std::abs(wanted);
+  const double detour = length / std::max(drawn.chord().norm(), 1e-6) /
+                            (stroke.length() / std::max(stroke.chord().norm(), 1e-6)) - 1.0;
+  const double share = std::min(1.0, length / full_bend_length), wave_share = length / full_wave_length;
+  const double bowed = share * more / judge_constants.bent_limit;
+  const double waved = std::min(1.0, wave_share * wave_share) * detour / judge_constants.wavy_limit;
+  return {std::max(bowed, waved), more * length, waved > bowed};
+}
+
+class FormFaults {
+ public:
+  FormFaults(const CharacterForm& form, const WrittenForm& written, double least)
+      : form_(form), laid_(written.laid), least_(least), index_(form.count()) {
+    for (std::size_t k = 0; k < written.strokes.size(); ++k) {
+      index_[written.strokes[k]] = k;
+      const std::size_t stroke = written.strokes[k];
+      bodies_.push_back(form.hooks[stroke] ? without_hook(laid_.lines[k]) : laid_.lines[k]);
+    }
+    strokes_ = written.strokes;
+    noise_ = std::min(laid_.median_residual(), judge_constants.max_form_noise);
+  }
+
+  std::vector<FormFault> run() {
+    find_crossings();
+    find_crossings_lacking();
+    find_gaps();
+    find_corners();
+    find_overlaps();
+    find_shapes();
+    find_places();
+    find_proportions();
+    return std::move(faults_);
+  }
+
+ private:
+  bool has(std::size_t stroke) const { return index_[stroke].has_value(); }
+  const FormLine& body(std::size_t stroke) const { return bodies_[*index_[stroke]]; }
+  const FormLine& line(std::size_t stroke) const { return laid_.lines[*index_[stroke]]; }
+  double limit(double em, double noise) const { return std::max(em, noise * noise_); }
+
+  void add(FormFault fault) {
+    if (fault.evidence >= least_) faults_.push_back(std::move(fault));
+  }
+
+  const std::vector<DeepCrossing>& crossings_of(std::size_t one, std::size_t other) const {
+    return crossings_[one * form_.count() + other];
+  }
+
+  void find_crossings() {
+    const std::size_t n = form_.count();
+    crossings_.resize(n * n);
+    for (const std::size_t i : strokes_) {
+      for (const std::size_t j : strokes_) {
+        if (i >= j) continue;
+        crossings_[i * n + j] = deep_crossings(body(i), body(j));
+        for (const DeepCrossing& each : crossings_of(i, j)) {
+          double wanted = 0.0;
+          for (const DeepCrossing& other : form_.crossings_of(i, j)) {
+            const bool is_same = std::abs(other.share_one - each.share_one) < same_crossing &&
+                                 std::abs(other.share_other - each.share_other) < same_crossing;
+            if (is_same) wanted = std::max(wanted, other.depth);
+          }
+          const double beyond = each.depth - wanted;
+          if (wanted > touching_depth || beyond <= least_added_depth) continue;
+          const auto [stroke, other] = each.is_of_one ? std::pair(i, j) : std::pair(j, i);
+          add({.kind = FaultKind::crossing,
+               .stroke = stroke,
+               .other = other,
+               .end = each.end,
+               .amount = beyond,
+               .evidence = beyond / limit(judge_constants.crossing_limit, judge_constants.crossing_noise),
+               .place = end_of(body(stroke), each.end)});
+        }
+      }
+    }
+  }
+
+  void find_crossings_lacking() {
+    for (const std::size_t i : strokes_) {
+      for (const std::size_t j : strokes_) {
+        if (i >= j || form_.crossings_of(i, j).empty() || !crossings_of(i, j).empty()) continue;
+        const std::vector<DeepCrossing>& wanted = form_.crossings_of(i, j);
+        const DeepCrossing& deepest = *std::max_element(
+            wanted.begin(), wanted.end(), [](const auto& one, const auto& other) { return one.depth < other.depth; });
+        if (deepest.depth < least_depth) continue;
+        const double apart = std::min(least_distance(body(i), body(j)), least_distance(body(j), body(i)));
+        const auto [stroke, other] = deepest.is_of_one ? std::pair(i, j) : std::pair(j, i);
+        add({.kind = FaultKind::no_crossing,
+             .stroke = stroke,
+             .other = other,
+             .end = deepest.end,
+             .amount = deepest.depth + apart,
+             .evidence = (deepest.depth + apart) /
+                         limit(judge_constants.no_crossing_limit, judge_constants.no_crossing_noise),
+             .place = end_of(body(stroke), deepest.end)});
+      }
+    }
+  }
+
+  void find_gaps() {
+    for (const Meeting& each : form_.meetings) {
+      if (!has(each.stroke) || !has(each.other)) continue;
+      if (!crossings_of(std::min(each.stroke, each.other), std::max(each.stroke, each.other)).empty()) continue;
+      const Point& end = end_of(body(each.stroke), each.end);
+      const double apart = nearest_place(end, body(each.other)).distance - each.distance;
+      add({.kind = FaultKind::gap,
+           .stroke = each.stroke,
+           .other = each.other,
+           .end = each.end,
+           .amount = apart,
+           .evidence = apart / limit(judge_constants.gap_limit, judge_constants.gap_noise),
+           .place = end});
+    }
+  }
+
+  /// Ends that met another stroke at its end and now lie in its course, or the other way round.
+  void find_corners() {
+    for (const Meeting& each : form_.meetings) {
+      if (!has(each.stroke) || !has(each.other) || std::min(each.before, each.after) > longest_corner) continue;
+      const FormLine& other = body(each.other);
+      const NearestPlace foot = nearest_place(end_of(body(each.stroke), each.end), other);
+      if (foot.distance > met_distance) continue;
+      const bool is_before = each.before <= each.after;
+      const double wanted = std::min(each.before, each.after);
+      const double has_now = is_before ? foot.along : other.length() - foot.along;
+      const bool passes = wanted <= at_corner && has_now > off_corner;
+      const bool stops = wanted >= in_course && has_now < at_corner;
+      if (!passes && !stops) continue;
+      const double change = std::abs(has_now - wanted);
+      const StrokeEnd end = is_before ? StrokeEnd::start : StrokeEnd::end;
+      add({.kind = passes ? FaultKind::crossing : FaultKind::no_crossing,
+           .stroke = each.other,
+           .other = each.stroke,
+           .end = end,
+           .amount = change,
+           .evidence = change / limit(judge_constants.corner_limit, judge_constants.corner_noise),
+           .place = end_of(other, end)});
+    }
+  }
+
+  void find_overlaps() {
+    for (const Neighbours& each : form_.neighbours) {
+      if (!has(each.stroke) || !has(each.other)) continue;
+      const Beside now = beside(body(each.stroke), body(each.other), each.beside.points);
+      if (static_cast<double>(now.count) < 0.35 * static_cast<double>(each.beside.count)) continue;
+      const double gap = each.beside.gap;
+      if (now.gap < closer * gap) {
+        add_overlap(each.stroke, each.other, gap - now.gap, judge_constants.overlap_share * share_left(now, gap));
+      } else if (now.signed_gap * each.beside.signed_gap < 0.0 && now.parallel > 0.8 &&
+                 std::abs(now.signed_gap) > 0.9 * now.gap && now.gap < 0.3) {
+        const double across = now.gap + gap;
+        add({.kind = FaultKind::side,
+             .stroke = each.stroke,
+             .other = each.other,
+             .amount = across,
+             .evidence = across / limit(judge_constants.side_limit, judge_constants.side_noise),
+             .place = body(each.stroke).centre()});
+      }
+    }
+    for (const StrokePair& each : form_.near) {
+      if (!has(each.stroke) || !has(each.other) || !crossings_of(each.stroke, each.other).empty()) continue;
+      const double apart = (body(each.stroke).centre() - body(each.other).centre()).norm();
+      if (apart >= closer * each.difference) continue;
+      add_overlap(each.stroke, each.other, each.difference - apart,
+                  judge_constants.near_share * each.difference / std::max(apart, 1e-6));
+    }
+  }
+
+  void add_overlap(std::size_t stroke, std::size_t other, double closer_by, double evidence_of_share) {
+    const double evidence = closer_by / limit(judge_constants.overlap_limit, judge_constants.overlap_noise);
+    add({.kind = FaultKind::overlap,
+         .stroke = stroke,
+         .other = other,
+         .amount = closer_by,
+         .evidence = std::min(evidence, evidence_of_share),
+         .place = body(std::max(stroke, other)).centre()});
+  }
+
+  /// Shapes: of the readings with and without a final hook, of the drawn stroke and of the character's, the one that is
+  /// least at fault counts.
+  void find_shapes() {
+    double lacking = 0.0;
+    for (const std::size_t i : strokes_) {
+      const FormLine& drawn = line(i);
+      if (drawn.length() < shortest_drawn || form_.bodies[i].length() < shortest_shaped) continue;
+      const bool has_hook = hook_of(drawn).has_value();
+      std::vector<FormLine> drawn_ways = {drawn};
+      if (has_hook) drawn_ways.push_back(without_hook(drawn));
+      double lacks = std::numeric_limits<double>::infinity();
+      Bend bent{std::numeric_limits<double>::infinity()};
+      for (const FormLine& way : drawn_ways) {
+        for (const FormLine* stroke : {&form_.strokes[i], &form_.bodies[i]}) {
+          lacks = std::min(lacks, lacking_bow(way, *stroke));
+          const Bend found = bend(way, *stroke);
+          if (found.evidence < bent.evidence) bent = found;
+        }
+      }
+      const Point middle = drawn.points[form_points / 2];
+      lacking += lacks * lacks;
+      add({.kind = FaultKind::straight,
+           .stroke = i,
+           .amount = lacks,
+           .evidence = lacks / judge_constants.straight_limit,
+           .place = middle});
+      add({.kind = bent.is_wavy ? FaultKind::wavy : FaultKind::bent,
+           .stroke = i,
+           .amount = bent.amount,
+           .evidence = bent.evidence,
+           .place = middle});
+      if (form_.hooks[i] && !has_hook) {
+        const FormLine& stroke = form_.strokes[i];
+        const double hook = stroke.length() - stroke.along[*form_.hooks[i]];
+        add({.kind = FaultKind::hook,
+             .stroke = i,
+             .amount = hook,
+             .evidence = hook / judge_constants.hook_limit,
+             .place = drawn.points.back()});
+      }
+    }
+    if (strokes_.size() < 2) return;
+    Eigen::AlignedBox2d box;
+    for (const FormLine& each : laid_.lines) box.extend(each.box);
+    add({.kind = FaultKind::straight,
+         .stroke = 0,
+         .amount = std::sqrt(lacking),
+         .evidence = std::sqrt(lacking) / judge_constants.straight_limit,
+         .place = box.center(),
+         .strokes = form_.count()});
+  }
+
+  void find_places() {
+    if (strokes_.size() < 2) return;
+    std::vector<double> ratios;
+    for (const std::size_t i : strokes_) ratios.push_back(body(i).length() / std::max(form_.bodies[i].length(), 0.02));
+    const double middle = std::max(median_of(ratios), 1e-3);
+    for (std::size_t k = 0; k < strokes_.size(); ++k) {
+      const std::size_t i = strokes_[k];
+      std::vector<double> others = laid_.residuals;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+      const Point offset = line(i).centre() - form_.strokes[i].centre();
+      const double noise = judge_constants.place_noise * median_of(others);
+      add({.kind = FaultKind::place,
+           .stroke = i,
+           .amount = offset.norm(),
+           .evidence = offset.norm() / std::max(judge_constants.place_limit, noise),
+           .place = line(i).points[form_points / 2],
+           .offset = offset,
+           .is_shift = distance_once_moved(i, offset) < shifted * offset.norm()});
+      const double change = std::log(std::max(ratios[k], 1e-3) / middle);
+      const double difference = std::abs(ratios[k] - middle) * form_.bodies[i].length();
+      if (std::abs(change) <= least_length_change || difference <= least_length_difference) continue;
+      add({.kind = FaultKind::length,
+           .stroke = i,
+           .amount = difference,
+           .evidence = std::abs(change) / std::log(judge_constants.length_limit),
+           .place = line(i).points[form_points / 2],
+           .length = ratios[k] / middle});
+    }
+  }
+
+  double distance_once_moved(std::size_t stroke, const Point& offset) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < form_points; ++k) {
+      sum += (line(stroke).points[k] - offset - form_.strokes[stroke].points[k]).norm();
+    }
+    return sum / static_cast<double>(form_points);
+  }
+
+  void find_proportions() {
+    for (const StrokePair& each : form_.parallels) {
+      if (!has(each.stroke) || !has(each.other)) continue;
+      const double longer_by = body(each.stroke).length() - body(each.other).length();
+      if (longer_by * each.difference >= 0.0) continue;
+      const double both = std::abs(longer_by) + std::abs(each.difference);
+      const auto [longer, shorter] = each.difference > 0.0 ? std::pair(each.stroke, each.other)
+                                                           : std::pair(each.other, each.stroke);
+      add({.kind = FaultKind::proportion,
+           .stroke = longer,
+           .other = shorter,
+           .amount = std::abs(longer_by),
+           .evidence = both / judge_constants.proportion_limit * std::min(1.0, std::abs(longer_by) / least_longer),
+           .place = body(longer).points.back()});
+    }
+  }
+
+  const CharacterForm& form_;
+  const LaidWriting& laid_;
+  const double least_;
+  std::vector<std::size_t> strokes_;
+  std::vector<std::optional<std::size_t>> index_;    ///< in `laid_`, by stroke
+  std::vector<FormLine> bodies_;                     ///< by index in `laid_`
+  std::vector<std::vector<DeepCrossing>> crossings_;  ///< of the writing, as CharacterForm::crossings
+  double noise_ = 0.0;
+  std::vector<FormFault> faults_;
+};
+
+}  // namespace
+
+std::vector<FormFault> form_faults(const CharacterForm& form, const WrittenForm& written, double least) {
+  return FormFaults(form, written, least).run();
+}
+
+}  // namespace calligraphy
