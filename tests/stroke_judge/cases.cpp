@@ -29,7 +29,12 @@ Outcome judge(const Case& each, const JudgeTolerances& tolerances, const Charact
   const MatchResult match = match_strokes(each.pen->character, each.corrupted.paths, tolerances, others);
   const std::vector<Truth>& truths = each.corrupted.truths;
   const bool told = std::any_of(truths.begin(), truths.end(), [&](const Truth& truth) { return tells(match, truth); });
-  return {told, match.remarks.empty(), other_character(match), comparisons(each), describe(match)};
+  return {told,
+          is_silent_but_form(match),
+          is_form_remarked(match),
+          other_character(match),
+          comparisons(each),
+          describe(match)};
 }
 
 }  // namespace
@@ -54,6 +59,20 @@ std::vector<Case> cases_of(const std::vector<std::vector<RightPen>>& sources, st
     }
   }
   return cases;
+}
+
+PenTrace trace_of(char32_t code, const std::string& name, const std::vector<PenPath>& paths) {
+  PenTrace trace{code, name, 1000.0, {}};
+  double time = 0.0;
+  for (const PenPath& path : paths) {
+    PenStroke& stroke = trace.strokes.emplace_back();
+    time += 0.3;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      if (i > 0) time += (path[i] - path[i - 1]).norm() / 0.5;
+      stroke.push_back({path[i], time});
+    }
+  }
+  return trace;
 }
 
 std::vector<Outcome> judge_cases(const std::vector<Case>& cases, const JudgeTolerances& tolerances,

@@ -8,6 +8,7 @@
 
 #include <calligraphy/judge/character_index.hpp>
 #include <calligraphy/judge/judge_tolerances.hpp>
+#include <calligraphy/judge/pen_trace.hpp>
 
 #include "corruptions.hpp"
 
@@ -21,7 +22,8 @@ struct Case {
 
 struct Outcome {
   bool told = false;         ///< exactly
-  bool silent = false;       ///< nothing is remarked
+  bool silent = false;       ///< nothing is remarked that is not of form
+  bool form = false;         ///< something is remarked of form, other than a note
   char32_t other = 0;        ///< another character that is told to have been written; 0: none
   double comparisons = 0.0;  ///< of a pen-down with a stroke, per pen-down and stroke
   std::string text;          ///< what is told
@@ -32,6 +34,9 @@ struct Outcome {
 /// one of each pen.
 std::vector<Case> cases_of(const std::vector<std::vector<RightPen>>& sources, std::size_t row, StrokeClass stroke_class,
                            std::size_t count, std::uint64_t seed);
+
+/// A drawing without times, as a pen of 0.5 em/s with 0.3 s in the air before each stroke draws it.
+calligraphy::PenTrace trace_of(char32_t code, const std::string& name, const std::vector<calligraphy::PenPath>& paths);
 
 /// `others`: that match_strokes() may take the writing for; nullptr: none.
 std::vector<Outcome> judge_cases(const std::vector<Case>& cases, const calligraphy::JudgeTolerances& tolerances,

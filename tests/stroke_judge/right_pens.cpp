@@ -189,4 +189,10 @@ std::vector<RightPen> written_pens(const std::vector<Character>& characters, std
   return pens;
 }
 
+std::vector<RightPen> medians(const std::vector<Character>& characters) {
+  std::vector<RightPen> pens;
+  for (const Character& each : characters) pens.push_back({"medians", each, middle_lines(each)});
+  return pens;
+}
+
 }  // namespace calligraphy_test

@@ -47,4 +47,7 @@ std::vector<RightPen> written_pens(
     const std::vector<calligraphy::Character>& characters, std::uint64_t first_seed, int threads,
     const std::function<void(double)>& progress = [](double) {});
 
+/// The middle lines of the characters, as pens of the source "medians".
+std::vector<RightPen> medians(const std::vector<calligraphy::Character>& characters);
+
 }  // namespace calligraphy_test

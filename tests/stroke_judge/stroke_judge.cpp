@@ -17,6 +17,7 @@
 
 #include "cases.hpp"
 #include "corruptions.hpp"
+#include "form_table.hpp"
 #include "guidance/statistics.hpp"
 #include "named_constants.hpp"
 #include "other_characters.hpp"
@@ -31,7 +32,7 @@ constexpr const char* usage =
     "usage: stroke_judge [--traces DIR]... [--characters FILE.set]... [--written N] [--half choosing|printed|all]\n"
     "                    [--row NAME] [--class any|dots|hooks|parallel] [--cases N]\n"
     "                    [--tolerances lenient|normal|strict] [--others] [--seed S] [--threads T] [--list]\n"
-    "                    [--constant NAME=VALUE]... [--out FILE]\n"
+    "                    [--constant NAME=VALUE]... [--out FILE] [--form]\n"
     "    --traces, --characters: of people's pens and of what they wrote, several in turn; by default those that\n"
     "        CALLIGRAPHY_PEN_TRACES and CALLIGRAPHY_CHARACTER_FILE name, separated by ':', or else none and the\n"
     "        built-in characters\n"
@@ -42,6 +43,9 @@ constexpr const char* usage =
     "    --others: lets match_strokes() tell that another character of the sets was written, and counts how often it\n"
     "        does where that is wrong; then two rows where it is right: another, pens judged against a character\n"
     "        drawn at random, and twins, against one that differs by little (of both halves)\n"
+    "    --form: two other tables, of what is remarked of form: of right pens by the file, with each tolerance, and of\n"
+    "        faults of form; instead of the simulated writer, the middle lines of characters are pens, and all are\n"
+    "        matched with every form of their characters; --row also takes the names of that table, and right\n"
     "    --list: each case that failed: pen-downs and remarks as they are, and as they are told\n"
     "    --constant: judges with this value of a constant of src/judge/judge_constants.hpp, several in turn\n"
     "    --out: writes those cases as pen traces, for calligraphy replay\n"
@@ -81,21 +85,6 @@ bool is_of_half(char32_t code, const std::string& half) {
   return is_printed_half(code) == (half == "printed");
 }
 
-/// A drawing without times, as a pen of 0.5 em/s with 0.3 s in the air before each stroke draws it.
-PenTrace trace_of(const Case& each, const std::string& row) {
-  PenTrace trace{each.pen->character.code, row + "-" + std::to_string(each.seed), 1000.0, {}};
-  double time = 0.0;
-  for (const PenPath& path : each.corrupted.paths) {
-    PenStroke& stroke = trace.strokes.emplace_back();
-    time += 0.3;
-    for (std::size_t i = 0; i < path.size(); ++i) {
-      if (i > 0) time += (path[i] - path[i - 1]).norm() / 0.5;
-      stroke.push_back({path[i], time});
-    }
-  }
-  return trace;
-}
-
 class Program {
  public:
   explicit Program(Arguments& arguments)
@@ -111,16 +100,36 @@ class Program {
         seed_(static_cast<std::uint64_t>(arguments.number("--seed", 1))),
         threads_(static_cast<int>(arguments.number("--threads", 0))),
         list_(arguments.flag("--list")),
-        others_(arguments.flag("--others")) {}
+        others_(arguments.flag("--others")),
+        form_(arguments.flag("--form")) {}
 
   void run() {
     if (!out_.empty()) check_can_write(out_);
-    const bool is_of_others = others_ && (row_ == "another" || row_ == "twins");
-    if (!row_.empty() && !is_of_others) corruption_named(row_);
-    std::vector<StrokeClass> classes = {StrokeClass::any, StrokeClass::dots, StrokeClass::hooks, StrokeClass::parallel};
-    if (!class_.empty()) classes = {class_named(class_)};
+    check_row();
     collect_pens();
     if (others_) index_.emplace(set_);
+    if (form_) {
+      failed_ = print_form_tables(
+          sources_, set_, {tolerances_, index_ ? &*index_ : nullptr, row_, case_count_, seed_, threads_, list_});
+    } else {
+      print_table();
+    }
+    if (out_.empty()) return;
+    std::ostringstream text;
+    write_pen_traces(text, failed_);
+    write_file(out_, text.str());
+  }
+
+ private:
+  void check_row() const {
+    if (row_.empty()) return;
+    if (form_ && row_ != "right") form_row_named(row_);
+    if (!form_ && !(others_ && (row_ == "another" || row_ == "twins"))) corruption_named(row_);
+  }
+
+  void print_table() {
+    std::vector<StrokeClass> classes = {StrokeClass::any, StrokeClass::dots, StrokeClass::hooks, StrokeClass::parallel};
+    if (!class_.empty()) classes = {class_named(class_)};
     std::printf("comparisons: of a pen-down with a stroke, per pen-down and stroke; median and 95 %%\n");
     std::printf("%-19s %-9s %6s %10s %13s %8s\n", "row", "strokes", "n", "characters", "comparisons", "%");
     for (const StrokeClass stroke_class : classes) {
@@ -132,13 +141,8 @@ class Program {
     }
     if (others_ && (row_.empty() || row_ == "another")) run_another();
     if (others_ && (row_.empty() || row_ == "twins")) run_twins();
-    if (out_.empty()) return;
-    std::ostringstream text;
-    write_pen_traces(text, failed_);
-    write_file(out_, text.str());
   }
 
- private:
   void collect_pens() {
     std::vector<CharacterSet> sets;
     for (const std::string& file : files_) sets.push_back(CharacterSet::open(file));
@@ -154,10 +158,11 @@ class Program {
     std::erase_if(people, [&](const RightPen& pen) { return !is_of_half(pen.character.code, half_); });
     std::map<std::string, int> files;
     for (const RightPen& pen : people) ++files[pen.source];
-    sources_ = {std::move(people), written_pens(characters, seed_, threads_)};
+    sources_ = {std::move(people), form_ ? medians(characters) : written_pens(characters, seed_, threads_)};
     std::printf("right pens: %zu of people", sources_[0].size());
     for (const auto& [file, pens] : files) std::printf(", %d in %s", pens, file.c_str());
-    std::printf("; %zu of %zu written by the simulated writer\n", sources_[1].size(), characters.size());
+    std::printf("; %zu of %zu %s\n", sources_[1].size(), characters.size(),
+                form_ ? "middle lines" : "written by the simulated writer");
     Random random(seed_);
     for (std::vector<RightPen>& pens : sources_) shuffle(pens, random);
     std::erase_if(sources_, [](const std::vector<RightPen>& pens) { return pens.empty(); });
@@ -167,7 +172,7 @@ class Program {
     const Corruption& corruption = corruptions()[row];
     const std::vector<Case> cases = cases_of(sources_, row, stroke_class, case_count_, seed_);
     const std::vector<Outcome> outcomes = judge_cases(cases, tolerances_, index_ ? &*index_ : nullptr, threads_);
-    ClusteredMean share, other;
+    ClusteredMean share, form, other;
     std::vector<double> comparisons;
     std::set<char32_t> characters;
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -176,14 +181,16 @@ class Program {
       comparisons.push_back(outcomes[i].comparisons);
       const bool counted = corruption.is_clean() ? !outcomes[i].silent : outcomes[i].told;
       share.add(code, counted ? 100.0 : 0.0);
+      form.add(code, outcomes[i].form ? 100.0 : 0.0);
       other.add(code, outcomes[i].other != 0 ? 100.0 : 0.0);
       if (counted != corruption.is_clean()) continue;
       if (list_) print_failure(corruption, cases[i], outcomes[i]);
-      if (!out_.empty()) failed_.push_back(trace_of(cases[i], corruption.name));
+      if (!out_.empty()) failed_.push_back(trace_of(code, corruption.name + "-" + std::to_string(cases[i].seed), cases[i].corrupted.paths));
     }
     std::printf("%-19s %-9s %6zu %10zu %6.1f %6.1f %8.1f +- %.1f %s", corruption.name.c_str(), to_string(stroke_class),
                 cases.size(), characters.size(), quantile(comparisons, 0.5), quantile(comparisons, 0.95), share.mean(),
                 share.half_width(), corruption.is_clean() ? "with any remark" : "told exactly");
+    std::printf("; %.1f +- %.1f of form", form.mean(), form.half_width());
     if (others_) std::printf("; %.1f +- %.1f another character", other.mean(), other.half_width());
     std::printf("\n");
   }
@@ -246,7 +253,7 @@ class Program {
   std::size_t written_count_, case_count_;
   std::uint64_t seed_;
   int threads_;
-  bool list_, others_;
+  bool list_, others_, form_;
   CharacterSet set_;  ///< all sets
   std::optional<CharacterIndex> index_;
   std::vector<std::vector<RightPen>> sources_;  ///< people's pens and written ones, where there are any

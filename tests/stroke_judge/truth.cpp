@@ -14,11 +14,11 @@ Due due_of(const StrokeRemark& remark) {
   return {remark.kind, remark.kind == StrokeRemarkKind::extra ? remark.path : remark.stroke};
 }
 
-/// Remarks other than of order, in ascending order.
+/// Remarks other than of order and of form, in ascending order.
 std::vector<Due> told(const MatchResult& match) {
   std::vector<Due> all;
   for (const StrokeRemark& remark : match.remarks) {
-    if (remark.kind != StrokeRemarkKind::order) all.push_back(due_of(remark));
+    if (remark.kind != StrokeRemarkKind::order && !is_of_form(remark.kind)) all.push_back(due_of(remark));
   }
   std::sort(all.begin(), all.end());
   return all;
@@ -65,6 +65,17 @@ bool tells(const MatchResult& match, const Truth& truth) {
   return std::all_of(match.remarks.begin(), match.remarks.end(), [&](const StrokeRemark& remark) {
     return remark.kind != StrokeRemarkKind::order ||
            (truth.first_moved <= remark.stroke && remark.stroke <= truth.last_moved);
+  });
+}
+
+bool is_silent_but_form(const MatchResult& match) {
+  return std::all_of(match.remarks.begin(), match.remarks.end(),
+                     [](const StrokeRemark& remark) { return is_of_form(remark.kind); });
+}
+
+bool is_form_remarked(const MatchResult& match) {
+  return std::any_of(match.remarks.begin(), match.remarks.end(), [](const StrokeRemark& remark) {
+    return is_of_form(remark.kind) && remark.kind != StrokeRemarkKind::hook;
   });
 }
 

@@ -40,8 +40,14 @@ struct Truth {
 };
 
 /// Whether each pen-down is told to have written what it wrote, and everything that is to be remarked is, and nothing
-/// else. Where strokes are moved, by one fault, there is one remark of order, of one that is moved.
+/// else, whatever is remarked of form. Where strokes are moved, by one fault, there is one remark of order, of one that is moved.
 bool tells(const calligraphy::MatchResult& match, const Truth& truth);
+
+/// Whether nothing is remarked, whatever is of form.
+bool is_silent_but_form(const calligraphy::MatchResult& match);
+
+/// Whether a remark of form is made, other than that a hook is missing, which is a note.
+bool is_form_remarked(const calligraphy::MatchResult& match);
 
 /// The character that is told to have been written in place of the one that was asked for; 0: none.
 char32_t other_character(const calligraphy::MatchResult& match);
