@@ -18,6 +18,7 @@ struct JudgeConstants {
   double max_attempt_cost = 0.08;    ///< highest cost of a pen-down as the stroke that was attempted beside it [em]
   double max_attempt_share = 0.25;   ///< highest cost as an attempted stroke, over that as the stroke in its place [1]
   double max_similar_price = 1.25;   ///< price ratio of forms up to which mistakes decide; on 74 traces of people [1]
+  double max_right_price = 1.75;            ///< the same of a form of as many strokes without a mistake; on 阝 of people [1]
 
   // Costs of a pen-down as a stroke, as several strokes, or as a part of one.
   double left_over_cost = 0.2;              ///< cost of a pen-down or a stroke without a partner [em]
@@ -86,7 +87,7 @@ struct JudgeConstants {
   double min_hook_turn = std::numbers::pi / 3.0;  ///< least turn into a final hook [rad]
   double max_hook_share = 0.35;            ///< greatest length of a hook, over that of its stroke [1]
   double max_hook_length = 0.2;            ///< greatest length of a hook [em]
-  double crossing_limit = 0.08;            ///< depth of a crossing that should not be [em]
+  double crossing_limit = 0.09;            ///< depth of a crossing that should not be [em]
   double crossing_noise = 1.7;             ///< the same [1]
   double no_crossing_limit = 0.10;         ///< depth that a crossing lacks [em]
   double no_crossing_noise = 2.5;          ///< the same [1]
@@ -104,8 +105,8 @@ struct JudgeConstants {
   double bent_limit = 0.16;                ///< bow of a straight stroke, over its length [1]
   double wavy_limit = 0.35;                ///< its length over its chord, beyond 1 [1]
   double hook_limit = 0.25;                ///< length of a hook that is lacking [em]
-  double place_limit = 0.18;               ///< distance of a stroke from its place [em]
-  double place_noise = 4.5;                ///< the same [1]
+  double place_limit = 0.165;               ///< distance of a stroke from its place [em]
+  double place_noise = 4.2;                ///< the same [1]
   double length_limit = 3.2;               ///< factor between the length of a stroke and those of the others [1]
   double proportion_limit = 0.40;          ///< by how much the wrong stroke is the longer, and should be shorter [em]
 

@@ -107,6 +107,7 @@ struct FormMatch {
   double price = 0.0;               ///< price of the reading [em]
   std::size_t mistakes = 0;         ///< number of remarks at JudgeTolerances::normal(), whatever is reported in the end
   std::vector<StrokeRemark> form = {};  ///< remarks on form
+  std::size_t form_mistakes = 0;        ///< number of those at JudgeTolerances::normal()
 };
 
 FormMatch match_form(const Character& character, std::span<const PenPath> paths, std::span<const PenPath> steady) {
@@ -151,7 +152,7 @@ void judge_form(FormMatch& matched, const Character& character, std::span<const 
   const CharacterForm form(middle_lines(character));
   const std::vector<DrawnStroke>& drawn = matched.result.drawn;
   matched.form = form_remarks(form, written_form(form, steady, drawn), drawn, std::min(least, sure_evidence));
-  matched.mistakes += static_cast<std::size_t>(
+  matched.form_mistakes = static_cast<std::size_t>(
       std::count_if(matched.form.begin(), matched.form.end(),
                     [](const StrokeRemark& remark) { return remark.evidence >= sure_evidence; }));
 }
@@ -206,15 +207,18 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   for (const Character& character : accepted) {
     least_price = std::min(least_price, matched.emplace_back(match_form(character, paths, steady)).price);
   }
+  // A form of as many strokes as there are pen-downs, with nothing to remark, may be dearer than one with mistakes.
   const auto is_dear = [&](const FormMatch& form) {
-    return form.price > judge_constants.max_similar_price * least_price;
+    const bool is_right = form.outlines->count() == steady.size() && form.mistakes == 0;
+    return form.price > least_price * (is_right ? judge_constants.max_right_price : judge_constants.max_similar_price);
   };
   for (std::size_t i = 0; i < accepted.size(); ++i) {
     if (!is_dear(matched[i])) judge_form(matched[i], accepted[i], steady, tolerances.evidence);
   }
   // Among forms of about the same price, the one with the fewest mistakes comes first.
   const auto rank = [&](const FormMatch& form) {
-    return std::tuple(is_dear(form), is_dear(form) ? 0 : form.mistakes, form.price);
+    if (is_dear(form)) return std::tuple(true, std::size_t{0}, std::size_t{0}, form.price);
+    return std::tuple(false, form.mistakes, form.form_mistakes, form.price);
   };
   for (std::size_t i = 0; i < accepted.size(); ++i) {
     const FormMatch& next = matched[i];

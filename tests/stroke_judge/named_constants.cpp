@@ -30,6 +30,7 @@ constexpr auto named_constants = std::to_array<NamedConstant>({
     {"max_attempt_cost", &JudgeConstants::max_attempt_cost},
     {"max_attempt_share", &JudgeConstants::max_attempt_share},
     {"max_similar_price", &JudgeConstants::max_similar_price},
+    {"max_right_price", &JudgeConstants::max_right_price},
     {"left_over_cost", &JudgeConstants::left_over_cost},
     {"turned_cost", &JudgeConstants::turned_cost},
     {"least_trust", &JudgeConstants::least_trust},

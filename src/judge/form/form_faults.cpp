@@ -22,6 +22,7 @@ constexpr double at_corner = 0.03, off_corner = 0.05, in_course = 0.08, longest_
 constexpr double closer = 0.6;                   // gap over that of the character below which strokes come too close [1]
 constexpr double least_bow = 0.05, kept_bend = 0.3;   // bow of a bent stroke [em], and share of it that is enough [1]
 constexpr double most_bent = 0.2, free_bow = 0.08;    // bows over lengths [1]
+constexpr double one_sided = 0.4;  // mean distance from the chord, over the largest, of a bend rather than waves [1]
 constexpr double shortest_shaped = 0.12, shortest_drawn = 0.1;  // strokes that have a shape [em]
 constexpr double full_bend_length = 0.3, full_wave_length = 0.4;  // lengths from which a bend or a wave counts in full [em]
 constexpr double least_length_change = 0.3, least_length_difference = 0.2;  // logarithm [1], and [em]
@@ -56,7 +57,8 @@ Bend bend(const FormLine& drawn, const FormLine& stroke) {
   const double share = std::min(1.0, length / full_bend_length), wave_share = length / full_wave_length;
   const double bowed = share * more / judge_constants.bent_limit;
   const double waved = std::min(1.0, wave_share * wave_share) * detour / judge_constants.wavy_limit;
-  return {std::max(bowed, waved), more * length, waved > bowed};
+  const bool is_one_sided = std::abs(mean_offset(drawn)) > one_sided * std::abs(bow(drawn));
+  return {std::max(bowed, waved), more * length, waved > bowed && !(bowed >= 1.0 && is_one_sided)};
 }
 
 class FormFaults {

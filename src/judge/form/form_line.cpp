@@ -4,11 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+
+#include <calligraphy/judge/pen_path.hpp>
 
 #include "judge/judge_constants.hpp"
 #include "judge/pens/resemblance.hpp"
-
-#include <calligraphy/judge/pen_path.hpp>
 
 namespace calligraphy {
 namespace {
@@ -94,17 +95,30 @@ double least_distance(const FormLine& line, const FormLine& other) {
   return least;
 }
 
-double bow(const FormLine& line) {
+namespace {
+
+/// The distances of the points from the chord, positive to its left; zero if the ends are in one place.
+std::array<double, form_points> offsets(const FormLine& line) {
   const Point chord = line.chord();
   const double length = chord.norm();
-  if (length < no_length) return 0.0;
-  double largest = 0.0, sum = 0.0;
-  for (const Point& point : line.points) {
-    const double offset = cross_product(chord, point - line.points.front()) / length;
-    largest = std::max(largest, std::abs(offset));
-    sum += offset;
+  std::array<double, form_points> found = {};
+  for (std::size_t i = 0; i < form_points && length >= no_length; ++i) {
+    found[i] = cross_product(chord, line.points[i] - line.points.front()) / length;
   }
-  return sum < 0.0 ? -largest : largest;
+  return found;
+}
+
+}  // namespace
+
+double mean_offset(const FormLine& line) {
+  const auto found = offsets(line);
+  return std::accumulate(found.begin(), found.end(), 0.0) / static_cast<double>(form_points);
+}
+
+double bow(const FormLine& line) {
+  double largest = 0.0;
+  for (const double offset : offsets(line)) largest = std::max(largest, std::abs(offset));
+  return mean_offset(line) < 0.0 ? -largest : largest;
 }
 
 std::optional<std::size_t> hook_of(const FormLine& line) {

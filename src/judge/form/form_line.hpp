@@ -56,6 +56,9 @@ double least_distance(const FormLine& line, const FormLine& other);
 /// The largest distance of the points from the chord, positive if the line lies to the left of it on the whole [em].
 double bow(const FormLine& line);
 
+/// The mean distance of the points from the chord, positive to its left [em].
+double mean_offset(const FormLine& line);
+
 /// The index of the point where a final hook begins: a turn of at least 60 degrees near the end, after which at most
 /// 35 % of the length follow, and at most 0.2 em.
 std::optional<std::size_t> hook_of(const FormLine& line);
