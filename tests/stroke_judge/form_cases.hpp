@@ -37,8 +37,8 @@ using AcceptedForms = std::map<char32_t, std::vector<calligraphy::Character>>;
 
 AcceptedForms accepted_forms(const calligraphy::CharacterSet& set, const std::vector<RightPen>& pens);
 
-/// `count` cases of the row with this index in form_rows(): each of the pens in turn, until there are enough, or none of
-/// them can have the fault. They refer to the pens. Of a row in which nothing is random each pen has one.
+/// `count` cases of the row with this index in form_rows(): each of the pens in turn, until there are enough, or none
+/// of them can have the fault. They refer to the pens. Of a row in which nothing is random each pen has one.
 std::vector<FormCase> form_cases_of(const std::vector<RightPen>& pens, std::size_t row, std::size_t count,
                                     std::uint64_t seed);
 

@@ -1,5 +1,5 @@
-// Faults of form put into pens that wrote a character right: strokes that protrude, do not reach, lie on each other, are
-// bent or straight, and writing that is turned, doubled or nothing at all.
+// Faults of form put into pens that wrote a character right: strokes that protrude, do not reach, lie on each other,
+// are bent or straight, and writing that is turned, doubled or nothing at all.
 #pragma once
 
 #include <cstdint>

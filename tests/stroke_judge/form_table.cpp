@@ -17,7 +17,9 @@ using namespace calligraphy;
 namespace {
 
 const std::pair<const char*, JudgeTolerances> all_tolerances[] = {
-    {"lenient", JudgeTolerances::lenient()}, {"normal", JudgeTolerances::normal()}, {"strict", JudgeTolerances::strict()}};
+    {"lenient", JudgeTolerances::lenient()},
+    {"normal", JudgeTolerances::normal()},
+    {"strict", JudgeTolerances::strict()}};
 
 /// "gap 3, bent 1": the most frequent first.
 std::string counts_of(const std::map<StrokeRemarkKind, int>& kinds) {
@@ -136,8 +138,8 @@ std::vector<PenTrace> print_form_tables(const std::vector<std::vector<RightPen>>
     for (const std::vector<RightPen>& pens : sources) tables.print_right_pens(pens);
   }
   if (options.row != "right") {
-    std::printf("faults: %% told; told by its first kind; with any remark; mean number of remarks; %% taken for another "
-                "character; first kind\n");
+    std::printf("faults: %% told; told by its first kind; with any remark; mean number of remarks; %% taken for "
+                "another character; first kind\n");
     std::printf("%-15s %-9s %6s %10s %14s %6s %6s %8s %6s\n", "row", "pens", "n", "characters", "told", "first", "any",
                 "remarks", "other");
     for (const std::vector<RightPen>& pens : sources) {

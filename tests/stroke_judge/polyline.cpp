@@ -77,7 +77,8 @@ std::vector<Crossing> crossings(const PenPath& one, const PenPath& other) {
       const Point other_step = other[j + 1] - other[j], between = other[j] - one[i];
       const double area = cross_product(step, other_step);
       if (std::abs(area) > 1e-15) {
-        const double share = cross_product(between, other_step) / area, other_share = cross_product(between, step) / area;
+        const double share = cross_product(between, other_step) / area;
+        const double other_share = cross_product(between, step) / area;
         if (share >= 0.0 && share < 1.0 && other_share >= 0.0 && other_share < 1.0) {
           found.push_back({along_one + share * step.norm(), along_other + other_share * other_step.norm()});
         }

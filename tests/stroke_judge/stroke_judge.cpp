@@ -43,8 +43,8 @@ constexpr const char* usage =
     "    --others: lets match_strokes() tell that another character of the sets was written, and counts how often it\n"
     "        does where that is wrong; then two rows where it is right: another, pens judged against a character\n"
     "        drawn at random, and twins, against one that differs by little (of both halves)\n"
-    "    --form: two other tables, of what is remarked of form: of right pens by the file, with each tolerance, and of\n"
-    "        faults of form; instead of the simulated writer, the middle lines of characters are pens, and all are\n"
+    "    --form: two other tables, of what is remarked of form: of right pens by the file, with each tolerance, and\n"
+    "        of faults of form; instead of the simulated writer, the middle lines of characters are pens, and all are\n"
     "        matched with every form of their characters; --row also takes the names of that table, and right\n"
     "    --list: each case that failed: pen-downs and remarks as they are, and as they are told\n"
     "    --constant: judges with this value of a constant of src/judge/judge_constants.hpp, several in turn\n"
@@ -185,7 +185,9 @@ class Program {
       other.add(code, outcomes[i].other != 0 ? 100.0 : 0.0);
       if (counted != corruption.is_clean()) continue;
       if (list_) print_failure(corruption, cases[i], outcomes[i]);
-      if (!out_.empty()) failed_.push_back(trace_of(code, corruption.name + "-" + std::to_string(cases[i].seed), cases[i].corrupted.paths));
+      if (out_.empty()) continue;
+      const std::string name = corruption.name + "-" + std::to_string(cases[i].seed);
+      failed_.push_back(trace_of(code, name, cases[i].corrupted.paths));
     }
     std::printf("%-19s %-9s %6zu %10zu %6.1f %6.1f %8.1f +- %.1f %s", corruption.name.c_str(), to_string(stroke_class),
                 cases.size(), characters.size(), quantile(comparisons, 0.5), quantile(comparisons, 0.95), share.mean(),

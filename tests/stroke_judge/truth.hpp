@@ -40,7 +40,8 @@ struct Truth {
 };
 
 /// Whether each pen-down is told to have written what it wrote, and everything that is to be remarked is, and nothing
-/// else, whatever is remarked of form. Where strokes are moved, by one fault, there is one remark of order, of one that is moved.
+/// else, whatever is remarked of form. Where strokes are moved, by one fault, there is one remark of order, of one that
+/// is moved.
 bool tells(const calligraphy::MatchResult& match, const Truth& truth);
 
 /// Whether nothing is remarked, whatever is of form.
