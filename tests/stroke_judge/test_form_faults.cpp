@@ -17,7 +17,7 @@ namespace {
 
 using namespace calligraphy;
 
-/// A copy of a character that can have a fault, and the copy with it. `stroke`: the faulty one, or the first of several.
+/// A copy of a character that can have a fault, and the copy with it. `stroke`: the faulty one, or the first of them.
 struct Seeded {
   std::vector<PenPath> before, after;
   std::size_t stroke;
