@@ -68,6 +68,7 @@ struct JudgeConstants {
   double carelessness = 0.3;           ///< further distance for a single stroke, over that from the other character [1]
   double lookalike_distance = 0.06;    ///< distance below which characters hardly differ: 125 of 4.3 million pairs [em]
   double drawn_alike_distance = 0.01;  ///< distance below which characters do not differ: two of those pairs [em]
+  double named_distance = 0.095;  ///< greatest distance from another character that is named: own ones of people [em]
   double unlike_price = 0.085;         ///< price per pen-down from which the best form is unlike; on 46 strangers [em]
 
   // The whole: residuals are of writing that fills the box of the character.
@@ -78,6 +79,9 @@ struct JudgeConstants {
   double max_part_residual = 0.09;     ///< greatest residual of parts in each other's place [em]
   double part_factor = 1.6;            ///< least ratio of the residual of the whole to theirs [1]
   double max_one_of_several = 0.19;    ///< greatest residual of a character beside which there is more [em]
+
+  double far_distance = 0.1;           ///< mean distance of pen-downs from which they cannot be read [em]
+  double unreadable_share = 0.4;       ///< least share of pen-downs that are farther than that [1]
 
   // Form. Of each pair, the first is a limit in em and the second one in multiples of this hand's noise, which is the
   // median residual of the strokes; the larger counts. Chosen on people's pens of four corpora (docs/practice.md).
@@ -105,8 +109,8 @@ struct JudgeConstants {
   double bent_limit = 0.16;                ///< bow of a straight stroke, over its length [1]
   double wavy_limit = 0.35;                ///< its length over its chord, beyond 1 [1]
   double hook_limit = 0.25;                ///< length of a hook that is lacking [em]
-  double place_limit = 0.165;               ///< distance of a stroke from its place [em]
-  double place_noise = 4.2;                ///< the same [1]
+  double place_limit = 0.15;               ///< distance of a stroke from its place [em]
+  double place_noise = 3.8;                ///< the same [1]
   double length_limit = 3.2;               ///< factor between the length of a stroke and those of the others [1]
   double proportion_limit = 0.40;          ///< by how much the wrong stroke is the longer, and should be shorter [em]
 

@@ -157,6 +157,17 @@ void judge_form(FormMatch& matched, const Character& character, std::span<const 
                     [](const StrokeRemark& remark) { return remark.evidence >= sure_evidence; }));
 }
 
+/// Tells that a fault of form makes another character, if it is the only one: then whoever reads it learns how.
+bool make_other(std::vector<StrokeRemark>& form, char32_t code) {
+  const auto is_fault = [](const StrokeRemark& remark) { return remark.evidence >= sure_evidence; };
+  if (std::count_if(form.begin(), form.end(), is_fault) != 1) return false;
+  StrokeRemark& fault = *std::find_if(form.begin(), form.end(), is_fault);
+  if (fault.other_stroke < 0) return false;
+  fault.other_character = code;
+  fault.evidence = std::numeric_limits<double>::infinity();
+  return true;
+}
+
 }  // namespace
 
 void validate(const JudgeTolerances& tolerances) {
@@ -213,7 +224,7 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
     return form.price > least_price * (is_right ? judge_constants.max_right_price : judge_constants.max_similar_price);
   };
   for (std::size_t i = 0; i < accepted.size(); ++i) {
-    if (!is_dear(matched[i])) judge_form(matched[i], accepted[i], steady, tolerances.evidence);
+    if (tolerances.form && !is_dear(matched[i])) judge_form(matched[i], accepted[i], steady, tolerances.evidence);
   }
   // Among forms of about the same price, the one with the fewest mistakes comes first.
   const auto rank = [&](const FormMatch& form) {
@@ -235,21 +246,30 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
     other = other_character(others->features(), accepted[compared], steady, matched[compared].reading);
     if (other) best = compared;
   }
-  const std::size_t whole_as = best_of_same_count.value_or(best);
-  const auto whole = whole_fault(CharacterForm(middle_lines(accepted[whole_as])), steady);
-  if (whole) best = whole_as;
-  MatchResult result = std::move(matched[best].result);
+  std::optional<WholeFault> whole;
+  if (tolerances.form) {
+    const std::size_t compared = best_of_same_count.value_or(best);
+    whole = whole_fault(CharacterForm(middle_lines(accepted[compared])), steady);
+    if (whole) {
+      best = compared;
+    } else if (!other && is_unreadable(matched[best].result.drawn)) {
+      whole = WholeFault{StrokeRemarkKind::unreadable};
+    }
+  }
+  FormMatch& chosen = matched[best];
+  MatchResult result = std::move(chosen.result);
   result.accepted = static_cast<int>(best);
   result.character = accepted[best];
   if (whole) {
     result.remarks = {whole_remark(*whole, paths)};
     return result;
   }
+  std::erase_if(chosen.form, [&](const StrokeRemark& remark) { return remark.evidence < tolerances.evidence; });
+  if (other && chosen.mistakes == 0 && make_other(chosen.form, other->code)) other.reset();
   result.remarks = remarks_on(accepted[best], paths, result.drawn, result.fit,
-                              {matched[best].reading.order_evidence, tolerances.evidence}, other);
-  if (other && !other->is_lookalike) return result;
-  for (const StrokeRemark& remark : matched[best].form) {
-    if (remark.evidence >= tolerances.evidence) result.remarks.push_back(remark);
+                              {chosen.reading.order_evidence, tolerances.evidence}, other);
+  if (!other || other->is_lookalike) {
+    result.remarks.insert(result.remarks.end(), chosen.form.begin(), chosen.form.end());
   }
   return result;
 }

@@ -112,7 +112,7 @@ MatchResult match_supposing(const Character& character, std::span<const PenPath>
     std::vector<PenPath> supposed(paths.begin(), paths.end());
     supposed.back() = last;
     supposed.insert(supposed.end(), lines.begin() + static_cast<std::ptrdiff_t>(count), lines.end());
-    MatchResult result = match_strokes(character, supposed);
+    MatchResult result = match_strokes(character, supposed, {.form = false});
     const double doubt = cost(result, paths, lines, count);
     if (doubt >= least) return;
     least = doubt;

@@ -392,13 +392,15 @@ class Malformer {
   }
 
   bool swap_parts() {
-    constexpr double apart = 0.2;
+    constexpr double apart = 0.2, most_overlap = -0.05;
     std::vector<std::size_t> cuts;
     const auto centre = [&](std::size_t from, std::size_t to) {
       return Point(box_of(std::span(paths_).subspan(from, to - from)).center());
     };
     for (std::size_t k = 2; k + 2 <= count(); ++k) {
-      if ((centre(0, k) - centre(k, count())).norm() >= apart) cuts.push_back(k);
+      const Box first = box_of(std::span(paths_).first(k)), second = box_of(std::span(paths_).subspan(k));
+      const double between = std::max((second.min() - first.max()).maxCoeff(), (first.min() - second.max()).maxCoeff());
+      if ((centre(0, k) - centre(k, count())).norm() >= apart && between >= most_overlap) cuts.push_back(k);
     }
     if (cuts.empty()) return false;
     const std::size_t first = cuts[random_.index(cuts.size())];
@@ -458,8 +460,8 @@ const std::vector<FormRow>& form_rows() {
       {"protrude-20", FormFault::protrude, 0.20, {Kind::crossing}},
       {"protrude-25", FormFault::protrude, 0.25, {Kind::crossing}},
       {"uncross", FormFault::uncross, 0.0, {Kind::no_crossing}},
-      {"short-20", FormFault::fall_short, 0.20, {Kind::gap}},
-      {"short-30", FormFault::fall_short, 0.30, {Kind::gap}},
+      {"short-20", FormFault::fall_short, 0.20, {Kind::gap, Kind::length, Kind::place, Kind::shape, Kind::no_crossing}},
+      {"short-30", FormFault::fall_short, 0.30, {Kind::gap, Kind::length, Kind::place, Kind::shape, Kind::no_crossing}},
       {"collapse-0", FormFault::collapse, 0.0, {Kind::overlap}},
       {"collapse-25", FormFault::collapse, 0.25, {Kind::overlap}},
       {"all-collapse", FormFault::collapse_all, 0.0, {Kind::overlap}},

@@ -27,7 +27,7 @@ enum class FormFault {
   displace,      ///< one is moved, in any direction [em]
   shrink_half,   ///< half of the strokes are of this size about their middle [1]
   drop_hook,     ///< one lacks its hook
-  swap_parts,    ///< two parts, with centres at least 0.2 em apart, are in each other's place, in the same order
+  swap_parts,    ///< two parts, centres at least 0.2 em apart and hardly overlapping, change places, in the same order
   turn,          ///< all lies otherwise (FormRow::orientation)
   write_twice,   ///< all is written once more on the right, of 60 to 100 % of the size
   scribble       ///< as many random curves in the same box

@@ -47,7 +47,7 @@ class CharacterComparison {
       add_count();
       return;
     }
-    const MatchResult match = match_strokes(as_long, paths_);
+    const MatchResult match = match_strokes(as_long, paths_, {.form = false});
     if (const std::optional<char32_t> drawn = drawn_as(0.5 * mean_distance(match))) {
       add(SetDifferenceKind::character, "its drawing is nearest to " + code_point_name(*drawn) + " there");
     } else {

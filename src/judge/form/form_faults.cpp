@@ -26,7 +26,7 @@ constexpr double one_sided = 0.4;  // mean distance from the chord, over the lar
 constexpr double shortest_shaped = 0.12, shortest_drawn = 0.1;  // strokes that have a shape [em]
 constexpr double full_bend_length = 0.3, full_wave_length = 0.4;  // lengths from which a bend or a wave counts in full [em]
 constexpr double least_length_change = 0.3, least_length_difference = 0.2;  // logarithm [1], and [em]
-constexpr double shifted = 0.4;  // mean distance from the place, over the offset, once the stroke is moved back [1]
+constexpr double shifted_alike = 1.0;  // difference of the offsets of both ends, over that of the stroke [1]
 constexpr double least_longer = 0.1;                                         // of the wrong stroke [em]
 
 double share_left(const Beside& now, double gap) { return gap / std::max(now.gap, 1e-6); }
@@ -299,7 +299,7 @@ class FormFaults {
            .evidence = offset.norm() / std::max(judge_constants.place_limit, noise),
            .place = line(i).points[form_points / 2],
            .offset = offset,
-           .is_shift = distance_once_moved(i, offset) < shifted * offset.norm()});
+           .is_shift = difference_of_ends(i) < shifted_alike * offset.norm()});
       const double change = std::log(std::max(ratios[k], 1e-3) / middle);
       const double difference = std::abs(ratios[k] - middle) * form_.bodies[i].length();
       if (std::abs(change) <= least_length_change || difference <= least_length_difference) continue;
@@ -312,12 +312,9 @@ class FormFaults {
     }
   }
 
-  double distance_once_moved(std::size_t stroke, const Point& offset) const {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < form_points; ++k) {
-      sum += (line(stroke).points[k] - offset - form_.strokes[stroke].points[k]).norm();
-    }
-    return sum / static_cast<double>(form_points);
+  /// By how much the offset of one end of a stroke from its place differs from that of the other end [em].
+  double difference_of_ends(std::size_t stroke) const {
+    return (body(stroke).chord() - form_.bodies[stroke].chord()).norm();
   }
 
   void find_proportions() {

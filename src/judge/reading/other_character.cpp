@@ -54,7 +54,7 @@ std::optional<OtherCharacter> other_character(const CharacterFeatures& character
     from_asked = std::min(from_asked, apart(writing, asked));
     if (read.size() > 0) from_asked_as_read = std::min(from_asked_as_read, apart(read, asked));
   }
-  if (nearest.code == 0) return std::nullopt;
+  if (nearest.code == 0 || nearest.distance > judge_constants.named_distance) return std::nullopt;
   // A careless hand needs more evidence than a neat one.
   const double doubt = judge_constants.carelessness * nearest.distance / std::sqrt(static_cast<double>(paths.size()));
   // Along the line from one character to the other; `between` is its length.
