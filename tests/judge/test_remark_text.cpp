@@ -341,18 +341,94 @@ TEST_CASE("each language has every text, and fills in nothing that English does 
   CHECK_THROWS_WITH(Language("tlh"), Catch::Matchers::StartsWith("language \"tlh\": expected one of "));
 }
 
+TEST_CASE("a stroke that goes too far, not far enough, or is out of place, is so in one of four ways", "[judge]") {
+  const std::vector<Said> off = {{"far to the right", "靠右"}, {"high", "高"}, {"far to the left", "靠左"}, {"low", "低"}};
+  const std::vector<Said> ways = {{"to the right", "右"}, {"up", "上"}, {"to the left", "左"}, {"down", "下"}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (const double beside : {-40.0, 0.0, 40.0}) {
+      const double angle = (90.0 * static_cast<double>(i) + beside) * std::numbers::pi / 180.0;
+      const Point middle(0.5, 0.5), arm(0.4 * std::cos(angle), 0.4 * std::sin(angle));
+      const std::vector<StrokeInput> strokes = {{2, {middle - arm, middle + arm}}, {1, {{0.1, 0.5}, {0.9, 0.5}}}};
+      const Character character = make_character(U'十', strokes);
+      const Said &ahead = off[i], &behind = off[(i + 2) % 4], &way = ways[i];
+      StrokeRemark remark{.kind = Kind::crossing, .stroke = 0, .stroke_count = 1, .other_stroke = 1};
+      CAPTURE(i, beside);
+      remark.end = StrokeEnd::end;
+      CHECK(in_both(remark, character) ==
+            Said("Stroke 1 (shù) goes on too far " + way.first + ": it should end at stroke 2 (héng).",
+                 "第1笔（竖）向" + way.second + "写得太长了，到第2笔（横）就要收笔。"));
+      remark.end = StrokeEnd::start;
+      CHECK(in_both(remark, character) ==
+            Said("Stroke 1 (shù) begins too " + behind.first + ": it should not go beyond stroke 2 (héng).",
+                 "第1笔（竖）起笔太" + behind.second + "了，不要超出第2笔（横）。"));
+      remark.kind = Kind::no_crossing;
+      remark.other_character = U'丁';
+      CHECK(in_both(remark, character) == Said("Stroke 1 (shù) begins too " + ahead.first + ": here it becomes 丁.",
+                                               "第1笔（竖）起笔太" + ahead.second + "了，这样就成了“丁”。"));
+      remark = {.kind = Kind::place, .stroke = 1, .stroke_count = 1, .offset = arm};
+      CHECK(in_both(remark, character) ==
+            Said("Stroke 2 (héng) is too " + ahead.first + ": look where the model has it.",
+                 "第2笔（横）的位置太" + ahead.second + "了，请照着范字的位置写。"));
+    }
+  }
+  const Character eternal = built_in("永");  // whose hooked stroke goes down, and only its hook goes left
+  CHECK(remark_text({.kind = Kind::crossing, .stroke = 1, .stroke_count = 1, .other_stroke = 0, .end = StrokeEnd::end},
+                    eternal)
+            .starts_with("Stroke 2 (héngzhégōu) goes on too far down"));
+}
+
+TEST_CASE("of parts that changed places it is said where the first belongs", "[judge]") {
+  const std::vector<StrokeInput> strokes = {
+      {1, {{0.1, 0.7}, {0.3, 0.7}}}, {2, {{0.2, 0.9}, {0.2, 0.1}}}, {1, {{0.4, 0.5}, {0.9, 0.5}}}};
+  const Character character = make_character(U'亿', strokes);
+  CHECK(in_both({.kind = Kind::parts, .stroke = 0, .stroke_count = 2, .other_stroke = 2}, character) ==
+        Said("The two parts are in each other's place: strokes 1 (héng) and 2 (shù) belong at the left.",
+             "两个部件的位置写反了，第1笔（横）和第2笔（竖）应该在左边。"));
+}
+
+TEST_CASE("every remark of form says something else", "[judge]") {
+  const Character eternal = built_in("永");
+  std::vector<StrokeRemark> remarks;
+  for (int kind = static_cast<int>(Kind::unreadable); kind <= static_cast<int>(Kind::proportion); ++kind) {
+    const StrokeRemark remark{.kind = Kind(kind), .stroke = 0, .stroke_count = 1, .other_stroke = 2, .length = 0.5,
+                              .orientation = WritingOrientation::mirrored};
+    remarks.push_back(remark);
+    if (Kind(kind) == Kind::crossing || Kind(kind) == Kind::no_crossing || Kind(kind) == Kind::gap) {
+      for (const StrokeEnd end : {StrokeEnd::start, StrokeEnd::end}) remarks.push_back(remark), remarks.back().end = end;
+    }
+    if (Kind(kind) == Kind::crossing || Kind(kind) == Kind::no_crossing || Kind(kind) == Kind::proportion) {
+      remarks.push_back(remark), remarks.back().other_character = U'水';
+    }
+    if (Kind(kind) == Kind::overlap || Kind(kind) == Kind::straight) {
+      remarks.push_back(remark), remarks.back().stroke_count = 5;
+    }
+    if (Kind(kind) == Kind::length) remarks.push_back(remark), remarks.back().length = 2.0;
+    for (int i = 2; Kind(kind) == Kind::orientation && i <= static_cast<int>(WritingOrientation::mirrored_right); ++i) {
+      remarks.push_back(remark), remarks.back().orientation = WritingOrientation(i);
+    }
+  }
+  for (const Language& language : languages()) {
+    std::set<std::string> texts;
+    for (const StrokeRemark& remark : remarks) texts.insert(remark_text(remark, eternal, language));
+    CHECK(texts.size() == remarks.size());
+  }
+}
+
 TEST_CASE("every kind of remark, on one stroke or several, is said in full in every language", "[judge]") {
   const Character eternal = built_in("永");
   for (const Language& language : languages()) {
-    for (int kind = 0; kind <= static_cast<int>(Kind::lookalike); ++kind) {
+    for (int kind = 0; kind <= static_cast<int>(Kind::proportion); ++kind) {
       for (const int count : {1, 2, 3}) {
         for (const int stroke : {0, 2}) {
           for (const int other : {-1, 1, 4}) {
             for (const double length : {0.2, 1.0}) {
               for (const WritingDirection direction : {WritingDirection::forwards, WritingDirection::backwards}) {
                 const StrokeRemark remark{.kind = Kind(kind), .path = 21, .path_count = 1, .stroke = stroke,
-                                          .stroke_count = count, .other_path = other, .other_stroke = other,
-                                          .other_character = U'水', .length = length, .direction = direction};
+                                          .stroke_count = count, .other_path = other,
+                                          .other_stroke = is_of_form(Kind(kind)) ? 4 : other,
+                                          .other_character = U'水', .length = length, .direction = direction,
+                                          .end = other < 0 ? StrokeEnd::start : StrokeEnd::end,
+                                          .orientation = WritingOrientation::mirrored_right};
                 const std::string text = remark_text(remark, eternal, language);
                 CAPTURE(language.name(), kind, count, stroke, other, text);
                 CHECK((text.size() > 10 && text.find_first_of("{}") == text.npos));
@@ -369,7 +445,14 @@ TEST_CASE("every kind of remark, on one stroke or several, is said in full in ev
   const std::vector<StrokeRemark> impossible = {{.kind = Kind::missing},
                                                 {.kind = Kind::shape, .stroke_count = 1},
                                                 {.kind = Kind::joined, .stroke = 1, .stroke_count = huge},
-                                                {.kind = Kind(99), .stroke = 0},
+                                                {.kind = Kind(static_cast<int>(Kind::proportion) + 1), .stroke = 0},
+                                                {.kind = Kind::gap, .stroke = 0, .stroke_count = 1},
+                                                {.kind = Kind::overlap, .stroke = 0, .stroke_count = 1},
+                                                {.kind = Kind::bent, .stroke_count = 1},
+                                                {.kind = Kind::orientation},
+                                                {.kind = Kind::orientation, .orientation = WritingOrientation(8)},
+                                                {.kind = Kind::side, .stroke = 0, .stroke_count = 1, .other_stroke = 1,
+                                                 .end = StrokeEnd(3)},
                                                 {.kind = Kind::extra},
                                                 {.kind = Kind::extra, .path = 0, .other_stroke = huge}};
   for (const StrokeRemark& wrong : impossible) {

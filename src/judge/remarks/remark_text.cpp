@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -50,20 +53,38 @@ std::string ordinal(int index, const Language& language) {
   return text.empty() ? language.text("ordinal", {{"number", number}}) : text;
 }
 
+/// The name of an enumerator as a part of a key.
+std::string key_of(const char* name) {
+  std::string key = name;
+  std::replace(key.begin(), key.end(), ' ', '_');
+  return key;
+}
+
+/// The last part of the keys for a way to go: of the four, the one that is nearest.
+std::string_view nearest_way(const Point& way) {
+  if (std::abs(way.x()) > std::abs(way.y())) return way.x() > 0.0 ? "right" : "left";
+  return way.y() > 0.0 ? "top" : "bottom";
+}
+
 /// A remark in words.
 class Sentence {
  public:
   Sentence(const StrokeRemark& remark, const Character& character, const Language& language)
       : remark_(remark), code_(character.code), strokes_(strokes(character)), language_(language) {
     using Kind = StrokeRemarkKind;
-    if (remark.kind < Kind::order || remark.kind > Kind::lookalike) throw ValueError("remark: there is no such kind");
-    const bool is_on_stroke = remark.kind < Kind::extra;
+    if (remark.kind < Kind::order || remark.kind > Kind::proportion) throw ValueError("remark: there is no such kind");
+    const bool is_on_stroke = remark.kind < Kind::extra || remark.kind >= Kind::parts;
     require_stroke(remark.stroke, remark.stroke_count, is_on_stroke ? 0 : -1);
-    require_stroke(remark.other_stroke, 1, -1);
+    require_stroke(remark.other_stroke, 1, is_on_two_strokes() ? 0 : -1);
+    if (remark.end < StrokeEnd::none || remark.end > StrokeEnd::end) throw ValueError("remark: there is no such end");
+    const bool is_turned = remark.orientation > WritingOrientation::upright &&
+                           remark.orientation <= WritingOrientation::mirrored_right;
+    if (remark.kind == Kind::orientation && !is_turned) throw ValueError("remark on the orientation: it names none");
     if (remark.kind == Kind::extra && remark.path < 0) throw ValueError("remark on an extra pen-down: it names none");
   }
 
   std::string text() const {
+    if (is_of_form(remark_.kind)) return of_form();
     switch (remark_.kind) {
       case StrokeRemarkKind::order:
         return order();
@@ -84,6 +105,15 @@ class Sentence {
   }
 
  private:
+  /// Whether it relates one stroke, or part, to another.
+  bool is_on_two_strokes() const {
+    using Kind = StrokeRemarkKind;
+    constexpr std::array kinds = {Kind::parts, Kind::crossing, Kind::no_crossing, Kind::gap, Kind::side,
+                                  Kind::proportion};
+    if (remark_.kind == Kind::overlap) return remark_.stroke_count < 2;
+    return std::find(kinds.begin(), kinds.end(), remark_.kind) != kinds.end();
+  }
+
   /// @throws ValueError unless the character has these strokes, the first of which is at least `least`
   void require_stroke(int first, int count, int least) const {
     const auto strokes = static_cast<int>(strokes_.size());
@@ -107,6 +137,34 @@ class Sentence {
     return say(remark_.other_path < 0 ? "extra.unlike" : "extra.twice");
   }
 
+  std::string of_form() const {
+    using Kind = StrokeRemarkKind;
+    const std::string key = key_of(to_string(remark_.kind));
+    const bool becomes_another = remark_.other_character != 0;
+    const std::string at_end = remark_.end == StrokeEnd::none ? "" : std::string(".") + to_string(remark_.end);
+    switch (remark_.kind) {
+      case Kind::orientation:
+        return say(key + "." + key_of(to_string(remark_.orientation)));
+      case Kind::parts:
+        return say(place_in_character() == middle_of_box ? "parts.middle" : key);
+      case Kind::crossing:
+      case Kind::no_crossing:
+        if (becomes_another) return say(at_end.empty() ? key + ".becomes" : "becomes" + at_end);
+        return say(key + at_end);
+      case Kind::gap:
+        return say(key + at_end);
+      case Kind::overlap:
+      case Kind::straight:
+        return say(remark_.stroke_count > 1 ? key + ".all" : key);
+      case Kind::length:
+        return say(remark_.length < 1.0 ? "length.short" : "length.long");
+      case Kind::proportion:
+        return say(becomes_another ? key + ".becomes" : key);
+      default:
+        return say(key);
+    }
+  }
+
   /// The text of a key, with everything that a remark may name filled in.
   std::string say(std::string_view key) const {
     const bool is_exchange = remark_.kind == StrokeRemarkKind::order && remark_.other_path >= 0;
@@ -115,7 +173,9 @@ class Sentence {
     const auto [line, other_line] = key == "extra.twice" ? std::minmax({remark_.path, remark_.other_path})
                                                          : std::pair(remark_.path, remark_.other_path);
     const Ends ends = ends_of(remark_.kind == StrokeRemarkKind::extra ? remark_.other_stroke : remark_.stroke);
-    const std::size_t start = remark_.kind == StrokeRemarkKind::missing ? place_in_character() : ends.start;
+    const bool is_placed = remark_.kind == StrokeRemarkKind::missing || remark_.kind == StrokeRemarkKind::parts;
+    const std::size_t start = is_placed ? place_in_character() : ends.start;
+    const std::string way(nearest_way(way_off()));
     return language_.text_for(remark_.stroke_count, key,
                               {{"strokes", all_strokes()},
                                {"first", stroke(first)},
@@ -127,6 +187,8 @@ class Sentence {
                                {"other_line", ordinal(other_line, language_)},
                                {"start", language_.text(thirds[start])},
                                {"end", language_.text(thirds[ends.end])},
+                               {"off", language_.text("off." + way)},
+                               {"way", language_.text("way." + way)},
                                {"written", encode_utf8(remark_.other_character)},
                                {"asked", encode_utf8(code_)}});
   }
@@ -175,11 +237,29 @@ class Sentence {
     return (line.front() - line.back()).norm() >= straight * path_length(line);
   }
 
-  /// The third of the character in which the middle of the remark's stroke lies.
+  /// The third of the character in which the middle of the remark's stroke lies, or that of its part.
   std::size_t place_in_character() const {
     std::vector<PenPath> lines;
     for (const Stroke& stroke : strokes_) lines.push_back(middle_line(stroke));
-    return place_in(box_of_all(lines), flat_character, halfway(lines[static_cast<std::size_t>(remark_.stroke)]));
+    const auto first = static_cast<std::size_t>(remark_.stroke), count = static_cast<std::size_t>(last()) - first + 1;
+    const bool is_part = remark_.kind == StrokeRemarkKind::parts;
+    const Point middle =
+        is_part ? box_of_all(std::span(lines).subspan(first, count)).center() : halfway(lines[first]);
+    return place_in(box_of_all(lines), flat_character, middle);
+  }
+
+  /// The way in which a stroke, or its end, is out of place.
+  Point way_off() const {
+    if (remark_.kind == StrokeRemarkKind::crossing) return way_of_end();
+    if (remark_.kind == StrokeRemarkKind::no_crossing) return -way_of_end();
+    return remark_.offset;
+  }
+
+  /// From the inside of a stroke to the remark's end. A third of the stroke is more than a hook.
+  Point way_of_end() const {
+    const std::vector<Point> line = line_of(remark_.stroke);
+    const std::vector<Point> inside = points_along(line, path_length(line), 4);
+    return remark_.end == StrokeEnd::end ? Point(line.back() - inside[2]) : Point(line.front() - inside[1]);
   }
 
   const StrokeRemark& remark_;
