@@ -129,7 +129,11 @@ calligraphy_status calligraphy_match_remark(const calligraphy_match* match, int3
                   .other_character = found.other_character,
                   .direction = static_cast<std::int32_t>(found.direction),
                   .length = found.length,
-                  .evidence = found.evidence});
+                  .evidence = found.evidence,
+                  .end = static_cast<std::int32_t>(found.end),
+                  .orientation = static_cast<std::int32_t>(found.orientation),
+                  .amount = found.amount,
+                  .offset = {found.offset.x(), found.offset.y()}});
   });
 }
 

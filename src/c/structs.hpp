@@ -17,6 +17,8 @@ template <class Struct>
 inline constexpr std::size_t first_size = sizeof(Struct);
 template <>
 inline constexpr std::size_t first_size<calligraphy_device_state> = 112;
+template <>
+inline constexpr std::size_t first_size<calligraphy_remark> = 72;
 
 /// No struct of any version is larger: a size above this was never set.
 inline constexpr std::size_t max_size = 4096;

@@ -419,6 +419,10 @@ TEST_CASE("pen-downs are matched as in C++, with remarks for people") {
     CHECK(std::isnan(remark.length) == std::isnan(there.length));
     if (!std::isnan(there.length)) CHECK(remark.length == Approx(there.length));
     CHECK(remark.evidence == Approx(there.evidence));
+    CHECK(remark.end == static_cast<int>(there.end));
+    CHECK(remark.orientation == static_cast<int>(there.orientation));
+    CHECK((remark.amount == there.amount || (std::isnan(remark.amount) && std::isnan(there.amount))));
+    CHECK(Point(remark.offset[0], remark.offset[1]) == there.offset);
     for (const char* const language : {"en", "zh"}) {
       REQUIRE(calligraphy_match_remark_text(match.get(), i, language, &reason) == CALLIGRAPHY_OK);
       CHECK(reason == remark_text(there, placed.character, Language(language)));
@@ -429,6 +433,12 @@ TEST_CASE("pen-downs are matched as in C++, with remarks for people") {
     CHECK(std::string(reason) != in_english);  // and the text asked for before is still there
   }
   CHECK(calligraphy_match_remark(match.get(), count, &remark) == CALLIGRAPHY_INVALID_VALUE);
+  const auto without_form = static_cast<std::uint32_t>(offsetof(calligraphy_remark, end));  // as it first was
+  remark.size = without_form;
+  remark.end = 85;
+  CHECK((calligraphy_match_remark(match.get(), 0, &remark) == CALLIGRAPHY_OK && remark.end == 85));
+  remark.size = without_form - 1;
+  CHECK(calligraphy_match_remark(match.get(), 0, &remark) == CALLIGRAPHY_INVALID_VALUE);
   CHECK(calligraphy_match_remark_text(match.get(), count, "zh", &reason) == CALLIGRAPHY_INVALID_VALUE);
 }
 
@@ -508,7 +518,7 @@ TEST_CASE("the version of the header is that of the library") {
                                      std::to_string(CALLIGRAPHY_VERSION_PATCH));
 }
 
-TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its first size (src/c/structs.hpp)") {
+TEST_CASE("structs have the sizes stated here: one that grows must state its first size (src/c/structs.hpp)") {
   CHECK(sizeof(calligraphy_layout) == 40);
   CHECK(sizeof(calligraphy_page_info) == 24);
   CHECK(sizeof(calligraphy_placed_character) == 40);
@@ -527,7 +537,7 @@ TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its 
   CHECK(sizeof(calligraphy_tick) == 360);
   CHECK(sizeof(calligraphy_servo_state) == 192);
   CHECK(sizeof(calligraphy_drawn_stroke) == 48);
-  CHECK(sizeof(calligraphy_remark) == 72);
+  CHECK(sizeof(calligraphy_remark) == 104);
   CHECK(sizeof(calligraphy_character_score) == 208);
   CHECK(sizeof(calligraphy_stroke_score) == 56);
   CHECK(sizeof(calligraphy_pen_down_score) == 64);
@@ -577,4 +587,29 @@ TEST_CASE("the names of C are the values of C++") {
   CHECK(CALLIGRAPHY_BUTTON_BARREL == barrel_button);
   CHECK(CALLIGRAPHY_BUTTON_ERASER == eraser_button);
   CHECK(CALLIGRAPHY_REMARK_LOOKALIKE == static_cast<int>(StrokeRemarkKind::lookalike));
+  CHECK(CALLIGRAPHY_REMARK_UNREADABLE == static_cast<int>(StrokeRemarkKind::unreadable));
+  CHECK(CALLIGRAPHY_REMARK_ORIENTATION == static_cast<int>(StrokeRemarkKind::orientation));
+  CHECK(CALLIGRAPHY_REMARK_SEVERAL == static_cast<int>(StrokeRemarkKind::several));
+  CHECK(CALLIGRAPHY_REMARK_PARTS == static_cast<int>(StrokeRemarkKind::parts));
+  CHECK(CALLIGRAPHY_REMARK_CROSSING == static_cast<int>(StrokeRemarkKind::crossing));
+  CHECK(CALLIGRAPHY_REMARK_NO_CROSSING == static_cast<int>(StrokeRemarkKind::no_crossing));
+  CHECK(CALLIGRAPHY_REMARK_GAP == static_cast<int>(StrokeRemarkKind::gap));
+  CHECK(CALLIGRAPHY_REMARK_OVERLAP == static_cast<int>(StrokeRemarkKind::overlap));
+  CHECK(CALLIGRAPHY_REMARK_SIDE == static_cast<int>(StrokeRemarkKind::side));
+  CHECK(CALLIGRAPHY_REMARK_STRAIGHT == static_cast<int>(StrokeRemarkKind::straight));
+  CHECK(CALLIGRAPHY_REMARK_BENT == static_cast<int>(StrokeRemarkKind::bent));
+  CHECK(CALLIGRAPHY_REMARK_WAVY == static_cast<int>(StrokeRemarkKind::wavy));
+  CHECK(CALLIGRAPHY_REMARK_HOOK == static_cast<int>(StrokeRemarkKind::hook));
+  CHECK(CALLIGRAPHY_REMARK_PLACE == static_cast<int>(StrokeRemarkKind::place));
+  CHECK(CALLIGRAPHY_REMARK_LENGTH == static_cast<int>(StrokeRemarkKind::length));
+  CHECK(CALLIGRAPHY_REMARK_PROPORTION == static_cast<int>(StrokeRemarkKind::proportion));
+  CHECK(CALLIGRAPHY_START_OF_STROKE == static_cast<int>(StrokeEnd::start));
+  CHECK(CALLIGRAPHY_END_OF_STROKE == static_cast<int>(StrokeEnd::end));
+  CHECK(CALLIGRAPHY_ORIENTATION_MIRRORED == static_cast<int>(WritingOrientation::mirrored));
+  CHECK(CALLIGRAPHY_ORIENTATION_UPSIDE_DOWN == static_cast<int>(WritingOrientation::upside_down));
+  CHECK(CALLIGRAPHY_ORIENTATION_HALF_TURNED == static_cast<int>(WritingOrientation::half_turned));
+  CHECK(CALLIGRAPHY_ORIENTATION_TURNED_LEFT == static_cast<int>(WritingOrientation::turned_left));
+  CHECK(CALLIGRAPHY_ORIENTATION_TURNED_RIGHT == static_cast<int>(WritingOrientation::turned_right));
+  CHECK(CALLIGRAPHY_ORIENTATION_MIRRORED_LEFT == static_cast<int>(WritingOrientation::mirrored_left));
+  CHECK(CALLIGRAPHY_ORIENTATION_MIRRORED_RIGHT == static_cast<int>(WritingOrientation::mirrored_right));
 }

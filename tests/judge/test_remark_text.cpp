@@ -412,6 +412,8 @@ TEST_CASE("every remark of form says something else", "[judge]") {
     for (const StrokeRemark& remark : remarks) texts.insert(remark_text(remark, eternal, language));
     CHECK(texts.size() == remarks.size());
   }
+  CHECK(remark_text({.kind = Kind::length, .stroke = 0, .stroke_count = 1, .length = 0.5}, eternal) ==
+        "Stroke 1 (diǎn) is too short beside the others: draw it longer.");
 }
 
 TEST_CASE("every kind of remark, on one stroke or several, is said in full in every language", "[judge]") {

@@ -801,8 +801,44 @@ typedef enum calligraphy_remark_kind {
   CALLIGRAPHY_REMARK_MISSING = 5,    ///< a stroke that was not written
   CALLIGRAPHY_REMARK_EXTRA = 6,      ///< a pen-down that matches no stroke of the character
   CALLIGRAPHY_REMARK_CHARACTER = 7,  ///< the writing is another character: then the only remark
-  CALLIGRAPHY_REMARK_LOOKALIKE = 8   ///< a note: the writing is nearer to a character that hardly differs from this one
+  CALLIGRAPHY_REMARK_LOOKALIKE = 8,  ///< a note: the writing is nearer to a character that hardly differs from this one
+  // Of form. Of the first three, each is then the only remark.
+  CALLIGRAPHY_REMARK_UNREADABLE = 9,    ///< the writing cannot be read as this character
+  CALLIGRAPHY_REMARK_ORIENTATION = 10,  ///< the writing is mirrored or turned
+  CALLIGRAPHY_REMARK_SEVERAL = 11,      ///< more than one character was written
+  CALLIGRAPHY_REMARK_PARTS = 12,        ///< two parts of the character are in each other's place
+  CALLIGRAPHY_REMARK_CROSSING = 13,     ///< a stroke goes through or beyond another, which it should meet at most
+  CALLIGRAPHY_REMARK_NO_CROSSING = 14,  ///< a stroke ends at or before another that it should go through
+  CALLIGRAPHY_REMARK_GAP = 15,          ///< a stroke does not reach another that it should meet
+  CALLIGRAPHY_REMARK_OVERLAP = 16,      ///< a stroke lies on another beside which it should be
+  CALLIGRAPHY_REMARK_SIDE = 17,         ///< a stroke is on the other side of another
+  CALLIGRAPHY_REMARK_STRAIGHT = 18,     ///< a stroke lacks its bend, or all of them do
+  CALLIGRAPHY_REMARK_BENT = 19,         ///< a stroke is bent that should be straight, or should be bent less
+  CALLIGRAPHY_REMARK_WAVY = 20,         ///< a stroke wavers
+  CALLIGRAPHY_REMARK_HOOK = 21,         ///< a note: a stroke lacks its hook
+  CALLIGRAPHY_REMARK_PLACE = 22,        ///< a stroke is out of place
+  CALLIGRAPHY_REMARK_LENGTH = 23,       ///< a stroke is much too long or too short beside the others
+  CALLIGRAPHY_REMARK_PROPORTION = 24    ///< of two strokes, the other one should be the longer
 } calligraphy_remark_kind;
+
+/// An end of a stroke.
+typedef enum calligraphy_stroke_end {
+  CALLIGRAPHY_NO_END = 0,  ///< neither, or not known which
+  CALLIGRAPHY_START_OF_STROKE = 1,
+  CALLIGRAPHY_END_OF_STROKE = 2
+} calligraphy_stroke_end;
+
+/// How a character lies on the page.
+typedef enum calligraphy_orientation {
+  CALLIGRAPHY_ORIENTATION_UPRIGHT = 0,
+  CALLIGRAPHY_ORIENTATION_MIRRORED = 1,       ///< left and right exchanged
+  CALLIGRAPHY_ORIENTATION_UPSIDE_DOWN = 2,    ///< top and bottom exchanged, as if y pointed the other way
+  CALLIGRAPHY_ORIENTATION_HALF_TURNED = 3,    ///< by 180 degrees
+  CALLIGRAPHY_ORIENTATION_TURNED_LEFT = 4,    ///< by 90 degrees, anticlockwise
+  CALLIGRAPHY_ORIENTATION_TURNED_RIGHT = 5,   ///< by 90 degrees, clockwise
+  CALLIGRAPHY_ORIENTATION_MIRRORED_LEFT = 6,  ///< mirrored, then turned left
+  CALLIGRAPHY_ORIENTATION_MIRRORED_RIGHT = 7  ///< mirrored, then turned right
+} calligraphy_orientation;
 
 /// A remark: one fault, or several that are one.
 typedef struct calligraphy_remark {
@@ -813,12 +849,16 @@ typedef struct calligraphy_remark {
   int32_t stroke;        ///< the stroke of the character, or the first of several; -1: none
   int32_t stroke_count;  ///< strokes in a row
   int32_t other_path;    ///< the pen-down whose stroke changed places with this one, or that wrote what this attempts
-  int32_t other_stroke;  ///< the stroke that was due, or written before; of an extra pen-down, that it attempts
+  int32_t other_stroke;  ///< the one that was due, or written before, or is attempted; of form, the other of a relation
   double place[2];       ///< to point at, in the square of the character [em]
   uint32_t other_character;  ///< code point of the character that the writing is nearer to; 0: none
   int32_t direction;         ///< a calligraphy_direction: that of the pen-down, where it matters
   double length;             ///< that of the pen-down, as calligraphy_drawn_stroke has it; NaN where it does not matter [1]
   double evidence;           ///< how sure or how grave it is; infinite: always made [1]
+  int32_t end;               ///< a calligraphy_stroke_end: that end of `stroke` which crosses or does not reach
+  int32_t orientation;       ///< how the writing lies, one of calligraphy_orientation
+  double amount;             ///< by how much it is off, of form; NaN where that cannot be measured [em]
+  double offset[2];          ///< of a stroke out of place: from its place to where it is [em]
 } calligraphy_remark;
 
 /// Number of languages of texts for people.
