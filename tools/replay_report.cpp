@@ -1,6 +1,7 @@
 #include "replay_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 
@@ -26,13 +27,16 @@ int strokes_drawn(const MatchResult& match) {
 
 /// Nothing can be said of its strokes.
 bool is_unclear(const MatchResult& match) {
-  return match.count(StrokeRemarkKind::character) > 0 ||
+  using Kind = StrokeRemarkKind;
+  constexpr std::array whole = {Kind::character, Kind::unreadable, Kind::orientation, Kind::several, Kind::parts};
+  return std::any_of(whole.begin(), whole.end(), [&match](Kind kind) { return match.count(kind) > 0; }) ||
          std::none_of(match.drawn.begin(), match.drawn.end(),
                       [](const DrawnStroke& drawn) { return drawn.stroke >= 0; });
 }
 
 /// "2 out of order", "1 missing"
-std::string with_count(int count, const std::string& what, const Language& language) {
+std::string with_count(int count, std::string what, const Language& language) {
+  std::replace(what.begin(), what.end(), ' ', '_');
   return language.text("cell." + what, {{"count", std::to_string(count)}});
 }
 
@@ -63,7 +67,7 @@ std::string others(const MatchResult& match, const Language& language) {
   using Kind = StrokeRemarkKind;
   if (match.count(Kind::character) > 0) return language.text("cell.character");
   std::string text;
-  for (const Kind kind : {Kind::shape, Kind::joined, Kind::broken, Kind::missing, Kind::extra, Kind::lookalike}) {
+  for (Kind kind = Kind::shape; kind <= Kind::proportion; kind = Kind(static_cast<int>(kind) + 1)) {
     const int count = match.count(kind);
     if (count == 0) continue;
     const std::string next = with_count(count, to_string(kind), language);

@@ -27,6 +27,12 @@ inline nlohmann::ordered_json remark_json(const StrokeRemark& remark, const Char
                {"other_character", remark.other_character ? Json(encode_utf8(remark.other_character)) : Json()},
                {"place_em", {remark.place.x(), remark.place.y()}},
                {"evidence", remark.evidence}};  // null: always told
+  if (is_of_form(remark.kind)) {
+    json["end"] = remark.end == StrokeEnd::none ? Json() : Json(calligraphy::to_string(remark.end));
+    json["amount_em"] = remark.amount;  // null: not measured
+    json["offset_em"] = {remark.offset.x(), remark.offset.y()};
+    json["orientation"] = calligraphy::to_string(remark.orientation);
+  }
   json["reason"] = remark_text(remark, character);
   for (const Language& language : languages()) {
     if (language == Language()) continue;

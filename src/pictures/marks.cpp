@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <limits>
+#include <numbers>
 
 #include <calligraphy/judge/remark_text.hpp>
 
@@ -14,6 +15,7 @@ namespace calligraphy::marks {
 namespace {
 
 constexpr std::size_t max_remarks = 12;
+constexpr double ring_radius = 0.6;  ///< over the size of a label
 
 // Of arrows.
 constexpr double chord_reach = 3.0;       ///< of the chord each way, in lengths of the head: about 0.1 em
@@ -232,12 +234,37 @@ void Numbers::draw(pugi::xml_node group, std::span<const Point> points, std::siz
   svg::add_text(group, centre.x(), y, size_, text, {{"fill", colour}});
 }
 
+void draw_rings(pugi::xml_node parent, std::span<const Point> places, const Sizes& sizes, Labels& labels) {
+  const double radius = ring_radius * sizes.label;
+  for (const Point& place : places) {
+    svg::add_circle(parent, "place", place, svg::number(radius).c_str(),
+                    {{"fill", "none"}, {"stroke", noted}, {"stroke-width", svg::number(0.7 * sizes.line)}});
+    std::vector<Point> ring;
+    for (int i = 0; i <= 16; ++i) {
+      const double angle = i * std::numbers::pi / 8.0;
+      ring.push_back(place + radius * Point(std::cos(angle), std::sin(angle)));
+    }
+    labels.avoid(ring);
+  }
+}
+
 const char* colour_of(const MatchResult& match, std::size_t path) {
   if (has_remark(match, path, {StrokeRemarkKind::order, StrokeRemarkKind::direction, StrokeRemarkKind::extra}))
     return wrong;
   if (has_remark(match, path, {StrokeRemarkKind::joined, StrokeRemarkKind::broken, StrokeRemarkKind::shape}))
     return noted;
-  return svg::ink;
+  const bool is_misshapen = std::any_of(match.remarks.begin(), match.remarks.end(), [path](const StrokeRemark& remark) {
+    return is_of_form(remark.kind) && is_about(remark, static_cast<int>(path));
+  });
+  return is_misshapen ? noted : svg::ink;
+}
+
+std::vector<Point> places_of_form(const MatchResult& match) {
+  std::vector<Point> places;
+  for (const StrokeRemark& remark : match.remarks) {
+    if (is_of_form(remark.kind) && remark.stroke >= 0 && remark.place.allFinite()) places.push_back(remark.place);
+  }
+  return places;
 }
 
 bool is_missing(const MatchResult& match, std::size_t stroke) {

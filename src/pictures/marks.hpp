@@ -84,8 +84,14 @@ class Numbers {
   Labels labels_;
 };
 
-/// The colour of a pen-down: red where it is wrong, orange where it is joined, broken or of another shape.
+/// The colour of a pen-down: red where it is wrong, orange where it is joined, broken or of another form.
 const char* colour_of(const MatchResult& match, std::size_t path);
+
+/// What remarks on the form of strokes point at [em].
+std::vector<Point> places_of_form(const MatchResult& match);
+
+/// Rings round places in the picture, of which labels then keep clear.
+void draw_rings(pugi::xml_node parent, std::span<const Point> places, const Sizes& sizes, Labels& labels);
 
 bool is_missing(const MatchResult& match, std::size_t stroke);
 

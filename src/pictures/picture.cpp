@@ -69,7 +69,8 @@ bool corresponds(const Writing& writing) {
 
 /// Which kinds of marks a picture has, for its legend.
 struct Shown {
-  bool written = false, wrong = false, noted = false, attempt = false, order = false, missing = false, due = false;
+  bool written = false, wrong = false, noted = false, place = false, attempt = false;
+  bool order = false, missing = false, due = false;
 };
 
 void require_valid(const PracticePage& page, std::span<const CharacterScore> scores) {
@@ -181,6 +182,9 @@ void draw_pen(pugi::xml_node root, const Writing& writing, const svg::View& em, 
     if (line.counted) numbers.labels().avoid(em(line.path));
     if (!line.slide.empty()) numbers.labels().avoid(em(line.slide));
   }
+  const std::vector<Point> places = marks::places_of_form(writing.match);
+  marks::draw_rings(traces, em(places), sizes, numbers.labels());
+  shown.place |= !places.empty();
   for (std::size_t i = 0; i < writing.lines.size(); ++i) {
     const PenLine& line = writing.lines[i];
     const std::vector<Point> points = em(line.path);
@@ -270,11 +274,13 @@ void draw_legend(TextColumn& column, const Shown& shown, const Language& languag
               {"font-style", "italic"},
               {"fill", marks::number_colour}});
   }
-  if (shown.due) {
-    const std::vector<Point> points = begin("picture.start");
-    svg::add_circle(column.parent, "start-sample", 0.5 * (points[0] + points[1]), number(1.5 * column.unit).c_str(),
-                    {{"fill", "none"}, {"stroke", marks::number_colour}, {"stroke-width", number(0.6 * column.unit)}});
-  }
+  const auto ring = [&](const char* key, const char* name, const char* colour) {
+    const std::vector<Point> points = begin(key);
+    svg::add_circle(column.parent, name, 0.5 * (points[0] + points[1]), number(1.5 * column.unit).c_str(),
+                    {{"fill", "none"}, {"stroke", colour}, {"stroke-width", number(0.6 * column.unit)}});
+  };
+  if (shown.place) ring("picture.place", "place-sample", marks::noted);
+  if (shown.due) ring("picture.start", "start-sample", marks::number_colour);
 }
 
 void draw_remarks(TextColumn& column, const CharacterScore& score, const Language& language) {

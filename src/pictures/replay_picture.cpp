@@ -71,6 +71,9 @@ void draw_written(pugi::xml_node root, const Character& character, std::span<con
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (!marks::bounced(match.drawn[i])) numbers.labels().avoid(view(paths[i]));
   }
+  std::vector<Point> places = marks::places_of_form(match);
+  for (Point& place : places) place = match.fit(place);
+  marks::draw_rings(lines, view(places), sizes, numbers.labels());
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (marks::bounced(match.drawn[i])) continue;
     const std::vector<Point> points = view(paths[i]);

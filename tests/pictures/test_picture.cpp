@@ -449,6 +449,13 @@ TEST_CASE("the legend names what is in the picture, in the language asked for", 
   CHECK(legend(wrong.picture()) ==
         "template|as written, numbered in order|out of order, backwards or extra|attempt that did not count|"
         "correct order|1 2");
+  std::vector<CharacterScore> scores = hand.scores();
+  scores[0].match.remarks = {{.kind = StrokeRemarkKind::wavy, .path = 1, .path_count = 1, .stroke = 1,
+                              .stroke_count = 1, .place = {0.5, 0.5}}};
+  const auto wavy = xml(character_picture(page, hand.recording, scores, 0, "title"));
+  CHECK(legend(wavy) ==
+        "template|as written, numbered in order|joined, broken or of another form|what a remark points at");
+  CHECK(all(wavy, "//circle[@class='place']").size() == 1);
 }
 
 TEST_CASE("all remarks are below, in lines that are no wider than the picture", "[practice]") {

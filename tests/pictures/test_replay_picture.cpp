@@ -77,3 +77,21 @@ TEST_CASE("a replay picture rejects a match of other pen-downs", "[practice]") {
   CHECK_THROWS_AS(replay_picture(ten, paths, match_strokes(ten, {}), {}, "title"), ValueError);
   CHECK_THROWS_AS(replay_picture(ten, paths, match_strokes(ten, paths), {}, "\xff"), FormatError);
 }
+
+TEST_CASE("a replay picture has strokes of another form in orange, and rings round what is pointed at", "[practice]") {
+  const Character ten = calligraphy_test::characters("十").front();
+  const auto paths = copy_of(ten);
+  MatchResult match = match_strokes(ten, paths);
+  match.remarks = {{.kind = StrokeRemarkKind::no_crossing, .path = 1, .path_count = 1, .stroke = 1, .stroke_count = 1,
+                    .other_stroke = 0, .place = paths[1].front(), .end = StrokeEnd::start},
+                   {.kind = StrokeRemarkKind::unreadable, .path = 0, .path_count = 0, .place = {0.5, 0.5}}};
+  match.fit.offset += Point(0.1, 0.0);
+  const auto document = replay_xml(replay_picture(ten, paths, match, {}, "title"));
+  CHECK(count(document, "//g[@class='written']/path[@stroke='#e08a00']") == 1);
+  const auto rings = document.select_nodes("//circle[@class='place' and @stroke='#e08a00']");
+  REQUIRE(rings.size() == 1);
+  const std::string start = document.select_node("//path[@stroke='#e08a00']/@d").attribute().value();
+  const std::string centre = std::string(rings[0].node().attribute("cx").value()) + "," +
+                             rings[0].node().attribute("cy").value();
+  CHECK(start.substr(0, centre.size() + 1) == "M" + centre);
+}

@@ -191,6 +191,16 @@ export class Paper {
     context.restore();
   }
 
+  /** A ring round a place. @param {number} x @param {number} y @param {string} colour */
+  markPlace(x, y, colour) {
+    const context = this.contexts.marks;
+    context.strokeStyle = colour;
+    context.lineWidth = em / 150;
+    context.beginPath();
+    context.arc(x, y, em / 36, 0, 2 * Math.PI);
+    context.stroke();
+  }
+
   /** The outline of a stroke's ink. @param {Stroke} stroke */
   #shape(stroke) {
     let shape = this.shapes.get(stroke);

@@ -1,4 +1,5 @@
 // The score of a character, and the remarks, each of which points at its place on the paper.
+import { constants } from "../calligraphy.js";
 import { em, margin } from "./desk.js";
 import { colours } from "./paper.js";
 
@@ -85,9 +86,14 @@ function markRemarks(lesson, score, chosen) {
       context.globalAlpha = 1;
     }
     let [x, y] = [margin + em * remark.place[0], margin + em * remark.place[1]];
+    const colour = i === chosen ? colours.wrong : "#8a8076";
+    if (remark.kind >= constants.REMARK_UNREADABLE && remark.stroke >= 0) {  // of form: the place itself is to be seen
+      paper.markPlace(x, y, colour);
+      x += em / 13;
+    }
     while (taken.some(([a, b]) => Math.hypot(a - x, b - y) < em / 13)) x += em / 13;
     taken.push([x, y]);
-    paper.markNumber(x, y, i + 1, i === chosen ? colours.wrong : "#8a8076");
+    paper.markNumber(x, y, i + 1, colour);
   });
 }
 

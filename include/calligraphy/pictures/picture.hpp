@@ -15,11 +15,12 @@ namespace calligraphy {
 
 /// Draws what was written of a character, 112 mm wide, its square 89 mm unless the pen left it: the template pale, and
 /// on it each pen-down as a dark line with an arrow and its number in writing order. Red marks what is out of order,
-/// backwards, extra or missing, orange what was joined, broken or has another shape. Attempts that the session did not
-/// count as a stroke are faint and dashed. Where pen-downs and strokes do not correspond one to one, the template has
-/// numbers of its own, blue and italic. Until the character is complete, a ring marks the start of the stroke that is
-/// due. Below are a legend of what occurs, and the remarks. `scores` are those of the page by score_page(), and `index`
-/// counts its characters from 0. The style is that of the template, the language that of all words but the title.
+/// backwards, extra or missing, orange what was joined, broken or has another form, with a ring round what a remark
+/// points at. Attempts that the session did not count as a stroke are faint and dashed. Where pen-downs and strokes do
+/// not correspond one to one, the template has numbers of its own, blue and italic. Until the character is complete, a
+/// blue ring marks the start of the stroke that is due. Below are a legend of what occurs, and the remarks. `scores` are
+/// those of the page by score_page(), and `index` counts its characters from 0. The style is that of the template, the
+/// language that of all words but the title.
 /// @throws ValueError when the page is invalid or has no such character, or the scores do not belong to the recording,
 /// FormatError when the title is not UTF-8
 std::string character_picture(const PracticePage& page, const Recording& recording,
