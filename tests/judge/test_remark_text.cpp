@@ -420,6 +420,9 @@ TEST_CASE("every kind of remark, on one stroke or several, is said in full in ev
   const Character eternal = built_in("永");
   for (const Language& language : languages()) {
     for (int kind = 0; kind <= static_cast<int>(Kind::proportion); ++kind) {
+      std::string cell = std::string("cell.") + to_string(Kind(kind));  // a word for tables
+      std::replace(cell.begin(), cell.end(), ' ', '_');
+      CHECK_FALSE(language.text(cell).empty());
       for (const int count : {1, 2, 3}) {
         for (const int stroke : {0, 2}) {
           for (const int other : {-1, 1, 4}) {
