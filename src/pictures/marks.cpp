@@ -262,7 +262,9 @@ const char* colour_of(const MatchResult& match, std::size_t path) {
 std::vector<Point> places_of_form(const MatchResult& match) {
   std::vector<Point> places;
   for (const StrokeRemark& remark : match.remarks) {
-    if (is_of_form(remark.kind) && remark.stroke >= 0 && remark.place.allFinite()) places.push_back(remark.place);
+    const bool is_on_all = remark.kind == StrokeRemarkKind::straight && remark.stroke_count > 1;
+    if (remark.kind <= StrokeRemarkKind::parts || is_on_all || !remark.place.allFinite()) continue;
+    places.push_back(remark.place);
   }
   return places;
 }

@@ -87,7 +87,7 @@ class Numbers {
 /// The colour of a pen-down: red where it is wrong, orange where it is joined, broken or of another form.
 const char* colour_of(const MatchResult& match, std::size_t path);
 
-/// What remarks on the form of strokes point at [em].
+/// What remarks on the form of some strokes, not of all, point at [em].
 std::vector<Point> places_of_form(const MatchResult& match);
 
 /// Rings round places in the picture, of which labels then keep clear.

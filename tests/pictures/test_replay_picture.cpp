@@ -84,7 +84,8 @@ TEST_CASE("a replay picture has strokes of another form in orange, and rings rou
   MatchResult match = match_strokes(ten, paths);
   match.remarks = {{.kind = StrokeRemarkKind::no_crossing, .path = 1, .path_count = 1, .stroke = 1, .stroke_count = 1,
                     .other_stroke = 0, .place = paths[1].front(), .end = StrokeEnd::start},
-                   {.kind = StrokeRemarkKind::unreadable, .path = 0, .path_count = 0, .place = {0.5, 0.5}}};
+                   {.kind = StrokeRemarkKind::straight, .stroke = 0, .stroke_count = 2, .place = {0.5, 0.5}},
+                   {.kind = StrokeRemarkKind::parts, .stroke = 0, .stroke_count = 1, .other_stroke = 1}};
   match.fit.offset += Point(0.1, 0.0);
   const auto document = replay_xml(replay_picture(ten, paths, match, {}, "title"));
   CHECK(count(document, "//g[@class='written']/path[@stroke='#e08a00']") == 1);

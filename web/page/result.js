@@ -87,7 +87,8 @@ function markRemarks(lesson, score, chosen) {
     }
     let [x, y] = [margin + em * remark.place[0], margin + em * remark.place[1]];
     const colour = i === chosen ? colours.wrong : "#8a8076";
-    if (remark.kind >= constants.REMARK_UNREADABLE && remark.stroke >= 0) {  // of form: the place itself is to be seen
+    const isOnAll = remark.kind === constants.REMARK_STRAIGHT && remark.stroke_count > 1;
+    if (remark.kind > constants.REMARK_PARTS && !isOnAll) {  // of form: the place itself is to be seen
       paper.markPlace(x, y, colour);
       x += em / 13;
     }
