@@ -26,7 +26,7 @@ constexpr double one_sided = 0.4;  // mean distance from the chord, over the lar
 constexpr double shortest_shaped = 0.12, shortest_drawn = 0.1;  // strokes that have a shape [em]
 constexpr double full_bend_length = 0.3, full_wave_length = 0.4;  // lengths from which a bend or a wave counts in full [em]
 constexpr double least_length_change = 0.3, least_length_difference = 0.2;  // logarithm [1], and [em]
-constexpr double shifted_alike = 1.0;  // difference of the offsets of both ends, over that of the stroke [1]
+constexpr double shifted_alike = 0.7;  // difference of the offsets of both ends, over that of the stroke [1]
 constexpr double least_longer = 0.1;                                         // of the wrong stroke [em]
 
 double share_left(const Beside& now, double gap) { return gap / std::max(now.gap, 1e-6); }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double sure = 1.0;           // evidence from which a fault may explain more evident ones [1]
 constexpr double least_grouped = 0.8;  // share of its limit from which a fault is evident at all [1]
+constexpr double one_place = 0.25;     // distance within which relations of one stroke are one fault [em]
 // Of right writing, many relations come within a quarter of their limits, few within a sixteenth: that is strict.
 constexpr double steepness = 4.0;
 
@@ -52,7 +53,8 @@ bool explains(const FormFault& cause, const FormFault& fault) {
     if (cause.kind == StrokeRemarkKind::overlap || cause.kind == StrokeRemarkKind::side) {
       return is_about(fault, cause.stroke) || is_about(fault, *cause.other);
     }
-    if (fault.other) return fault.stroke == cause.stroke && fault.end == cause.end;
+    const bool shares_stroke = is_about(fault, cause.stroke) || is_about(fault, *cause.other);
+    if (fault.other) return shares_stroke && (fault.place - cause.place).norm() < one_place;
     return fault.stroke == cause.stroke && !is_shape(fault.kind) && fault.kind != StrokeRemarkKind::hook;
   }
   return is_about(fault, cause.stroke) && fault.strokes == 1;  // a shape, a place or a length
