@@ -69,6 +69,7 @@ struct JudgeConstants {
   double lookalike_distance = 0.06;    ///< distance below which characters hardly differ: 125 of 4.3 million pairs [em]
   double drawn_alike_distance = 0.01;  ///< distance below which characters do not differ: two of those pairs [em]
   double named_distance = 0.095;  ///< greatest distance from another character that is named: own ones of people [em]
+  double twin_share = 0.8;        ///< greatest distance from a lookalike, over that from the character asked for [1]
   double unlike_price = 0.085;         ///< price per pen-down from which the best form is unlike; on 46 strangers [em]
 
   // The whole: residuals are of writing that fills the box of the character.
@@ -81,6 +82,7 @@ struct JudgeConstants {
   double max_one_of_several = 0.19;    ///< greatest residual of a character beside which there is more [em]
 
   double far_distance = 0.1;           ///< mean distance of pen-downs from which they cannot be read [em]
+  double far_shape = 0.05;             ///< the same once both have the same centre: below, it is only misplaced [em]
   double unreadable_share = 0.4;       ///< least share of pen-downs that are farther than that [1]
 
   // Form. Of each pair, the first is a limit in em and the second one in multiples of this hand's noise, which is the

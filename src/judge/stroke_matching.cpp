@@ -63,6 +63,15 @@ void prefer_corrections(StrokeReading& reading) {
   }
 }
 
+/// Mean distance of the pen-downs of a step from its strokes, once both have the same centre.
+double shape_distance(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
+  const StrokeCosts& costs = *reading.costs;
+  const Outline& line = strokes.run(step.stroke, step.strokes).line;
+  const Outline wanted = reading.pair(step).backwards ? reversed(line) : line;
+  const Outline& drawn = step.paths > 1 ? costs.placed_with_next(step.path) : costs.placed(step.path);
+  return mean_distance(drawn.rowwise() - drawn.colwise().mean(), wanted.rowwise() - wanted.colwise().mean());
+}
+
 /// Mean distance of the pen-downs of a step from its strokes; of both parts of a broken stroke together.
 double distance_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
   const StrokeCosts& costs = *reading.costs;
@@ -157,6 +166,27 @@ void judge_form(FormMatch& matched, const Character& character, std::span<const 
                     [](const StrokeRemark& remark) { return remark.evidence >= sure_evidence; }));
 }
 
+/// Whether most of the pen-downs are so far from what they wrote, in place and shape, that they cannot be read.
+bool is_unreadable(const FormMatch& matched) {
+  constexpr double fewest = 3.0;  // pen-downs: of fewer, each is judged
+  const StrokeReading& reading = matched.reading;
+  double sum = 0.0, count = 0.0, far = 0.0;
+  for (const ReadingStep& step : reading.steps) {
+    if (step.paths == 0 || (step.paths == 1 && reading.costs->is_tap(step.path))) continue;
+    const bool is_attempt = step.strokes == 0 && matched.result.drawn[step.path].attempt >= 0;
+    double distance = is_attempt ? judge_constants.far_distance : judge_constants.left_over_cost;
+    if (step.strokes > 0) {
+      distance = matched.result.drawn[step.path].distance;
+      const bool is_alike = shape_distance(step, reading, *matched.outlines) < judge_constants.far_shape;
+      if (is_alike) distance = std::min(distance, judge_constants.far_distance);
+    }
+    sum += distance;
+    ++count;
+    if (distance > judge_constants.far_distance) ++far;
+  }
+  return count >= fewest && sum > judge_constants.far_distance * count && far >= judge_constants.unreadable_share * count;
+}
+
 /// Tells that a fault of form makes another character, if it is the only one: then whoever reads it learns how.
 bool make_other(std::vector<StrokeRemark>& form, char32_t code) {
   const auto is_fault = [](const StrokeRemark& remark) { return remark.evidence >= sure_evidence; };
@@ -244,7 +274,7 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   if (others && best_of_same_count && (best == *best_of_same_count || !is_like_best)) {
     const std::size_t compared = *best_of_same_count;
     other = other_character(others->features(), accepted[compared], steady, matched[compared].reading);
-    if (other) best = compared;
+    if (other && other->is_clear) best = compared;
   }
   std::optional<WholeFault> whole;
   if (tolerances.form) {
@@ -252,7 +282,7 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
     whole = whole_fault(CharacterForm(middle_lines(accepted[compared])), steady);
     if (whole) {
       best = compared;
-    } else if (!other && is_unreadable(matched[best].result.drawn)) {
+    } else if (!(other && other->is_clear) && is_unreadable(matched[best])) {
       whole = WholeFault{StrokeRemarkKind::unreadable};
     }
   }
@@ -265,7 +295,8 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
     return result;
   }
   std::erase_if(chosen.form, [&](const StrokeRemark& remark) { return remark.evidence < tolerances.evidence; });
-  if (other && chosen.mistakes == 0 && make_other(chosen.form, other->code)) other.reset();
+  const bool is_makeable = other && chosen.mistakes == 0 && best == best_of_same_count;
+  if (other && ((is_makeable && make_other(chosen.form, other->code)) || !other->is_clear)) other.reset();
   result.remarks = remarks_on(accepted[best], paths, result.drawn, result.fit,
                               {chosen.reading.order_evidence, tolerances.evidence}, other);
   if (!other || other->is_lookalike) {

@@ -15,9 +15,9 @@ constexpr std::size_t least_points_beside = 2;
 // Of strokes that count in relations, and of those that are near each other or parallel [em, or 1].
 constexpr double shortest_related = 0.08, shortest_with_hook = 0.15;
 constexpr double least_near = 0.08, most_near = 0.3, longest_near = 0.4, most_near_bow = 0.1;
-constexpr double least_parallel = 0.95, most_parallel_bow = 0.08, least_difference = 0.1, farthest_parallel = 0.5;
+constexpr double least_parallel = 0.95, most_parallel_bow = 0.08, least_difference = 0.1, farthest_parallel = 0.5, farthest_related = 0.6;
 constexpr double least_share_beside = 0.35, least_share_parallel = 0.3;
-constexpr double least_parallel_neighbours = 0.85, least_one_sided = 0.95, least_gap = 0.06, most_gap = 0.3;
+constexpr double least_parallel_neighbours = 0.85, least_one_sided = 0.95, least_gap = 0.06, most_gap = 0.6;
 
 Point direction_at(const FormLine& line, std::size_t i) {
   const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, form_points - 1);
@@ -86,7 +86,7 @@ CharacterForm::CharacterForm(std::span<const std::vector<Point>> lines) {
     for (std::size_t j = 0; j < n; ++j) {
       const FormLine &one = bodies[i], &other = bodies[j];
       if (i == j || other.length() < shortest_related) continue;
-      if (one.box.exteriorDistance(other.box) > farthest_parallel) continue;
+      if (one.box.exteriorDistance(other.box) > farthest_related) continue;
       for (const StrokeEnd end : {StrokeEnd::start, StrokeEnd::end}) {
         if (end == StrokeEnd::end && hooks[i]) continue;
         const NearestPlace foot = nearest_place(end_of(one, end), other);

@@ -21,6 +21,7 @@ constexpr double met_distance = 0.06;                              // of an end 
 constexpr double at_corner = 0.03, off_corner = 0.05, in_course = 0.08, longest_corner = 0.2;  // tails [em]
 constexpr double closer = 0.6;                   // gap over that of the character below which strokes come too close [1]
 constexpr double least_bow = 0.05, kept_bend = 0.3;   // bow of a bent stroke [em], and share of it that is enough [1]
+constexpr double least_lacking = 0.03;                // bow of a stroke that counts as straight with the others [em]
 constexpr double most_bent = 0.2, free_bow = 0.08;    // bows over lengths [1]
 constexpr double one_sided = 0.4;  // mean distance from the chord, over the largest, of a bend rather than waves [1]
 constexpr double shortest_shaped = 0.12, shortest_drawn = 0.1;  // strokes that have a shape [em]
@@ -201,7 +202,7 @@ class FormFaults {
       if (now.gap < closer * gap) {
         add_overlap(each.stroke, each.other, gap - now.gap, judge_constants.overlap_share * share_left(now, gap));
       } else if (now.signed_gap * each.beside.signed_gap < 0.0 && now.parallel > 0.8 &&
-                 std::abs(now.signed_gap) > 0.9 * now.gap && now.gap < 0.3) {
+                 std::abs(now.signed_gap) > 0.9 * now.gap && std::max(gap, now.gap) < 0.3) {
         const double across = now.gap + gap;
         add({.kind = FaultKind::side,
              .stroke = each.stroke,
@@ -234,6 +235,7 @@ class FormFaults {
   /// least at fault counts.
   void find_shapes() {
     double lacking = 0.0;
+    std::vector<std::size_t> straight;
     for (const std::size_t i : strokes_) {
       const FormLine& drawn = line(i);
       if (drawn.length() < shortest_drawn || form_.bodies[i].length() < shortest_shaped) continue;
@@ -251,6 +253,7 @@ class FormFaults {
       }
       const Point middle = drawn.points[form_points / 2];
       lacking += lacks * lacks;
+      if (lacks > least_lacking) straight.push_back(i);
       add({.kind = FaultKind::straight,
            .stroke = i,
            .amount = lacks,
@@ -271,7 +274,7 @@ class FormFaults {
              .place = drawn.points.back()});
       }
     }
-    if (strokes_.size() < 2) return;
+    if (straight.size() < 2) return;
     Eigen::AlignedBox2d box;
     for (const FormLine& each : laid_.lines) box.extend(each.box);
     add({.kind = FaultKind::straight,
@@ -279,7 +282,7 @@ class FormFaults {
          .amount = std::sqrt(lacking),
          .evidence = std::sqrt(lacking) / judge_constants.straight_limit,
          .place = box.center(),
-         .strokes = form_.count()});
+         .straight = std::move(straight)});
   }
 
   void find_places() {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <vector>
+#include <vector>
 
 #include <calligraphy/judge/stroke_remark.hpp>
 
@@ -25,7 +26,7 @@ struct FormFault {
   Point place = Point::Zero();                               ///< where it is seen, on the writing [em]
   Point offset = Point::Zero();                              ///< StrokeRemark::offset [em]
   double length = std::numeric_limits<double>::quiet_NaN();  ///< over that of the stroke, beside the others [1]
-  std::size_t strokes = 1;                                   ///< number of strokes from `stroke` on
+  std::vector<std::size_t> straight = {};                    ///< if all are straight, those that lack a bow
   bool is_shift = false;                                     ///< of a place: the stroke is as it should be otherwise
 };
 

@@ -17,7 +17,6 @@ using detail::judge_constants;
 
 constexpr double flat_box = 0.25;  // shorter side of a box, over the longer, below which it is not stretched to a square [1]
 constexpr std::size_t orientations = 8;
-constexpr double least_unreadable = 3.0;                 // pen-downs of what cannot be read: of fewer, each is judged
 constexpr double shortest_way = 0.2, opposite = -0.7;  // between two parts [em], and cosine of ways in each other's place
 constexpr double apart_share = -0.05, least_rest = 0.5;  // of two characters, over the size of the first [1]
 
@@ -148,20 +147,6 @@ std::optional<WholeFault> whole_fault(const CharacterForm& form, std::span<const
   if (written.size() != form.count()) return several_characters(form.strokes, written);
   const auto orientation = orientation_of(form.strokes, written);
   return orientation ? orientation : exchanged_parts(form.strokes, written);
-}
-
-bool is_unreadable(std::span<const DrawnStroke> drawn) {
-  double sum = 0.0, count = 0.0, far = 0.0;
-  for (const DrawnStroke& each : drawn) {
-    if (each.tap || each.continues) continue;
-    double distance = each.distance;
-    if (each.stroke < 0) distance = each.attempt < 0 ? judge_constants.left_over_cost : judge_constants.far_distance;
-    sum += distance;
-    ++count;
-    if (distance > judge_constants.far_distance) ++far;
-  }
-  return count >= least_unreadable && sum > judge_constants.far_distance * count &&
-         far >= judge_constants.unreadable_share * count;
 }
 
 }  // namespace calligraphy

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include <calligraphy/judge/drawn_stroke.hpp>
 #include <calligraphy/judge/pen_path.hpp>
 #include <calligraphy/judge/stroke_remark.hpp>
 
@@ -23,8 +22,5 @@ struct WholeFault {
 /// Whether the writing is mirrored or turned, has more than one character, or has two parts in each other's place. Order
 /// and direction that explain it as well are no such fault. `paths` are the pen-downs in the order of writing.
 std::optional<WholeFault> whole_fault(const CharacterForm& form, std::span<const PenPath> paths);
-
-/// Whether the pen-downs are so far from what they wrote that they cannot be read as the character.
-bool is_unreadable(std::span<const DrawnStroke> drawn);
 
 }  // namespace calligraphy

@@ -41,32 +41,47 @@ std::optional<OtherCharacter> other_character(const CharacterFeatures& character
                                               std::span<const PenPath> paths, const StrokeReading& reading) {
   if (paths.size() != reading.costs->strokes() || paths.empty()) return std::nullopt;
   const CharacterFeature asked = character_feature(asked_for);
+  struct Distances {
+    double other = std::numeric_limits<double>::infinity(), asked = other, asked_as_read = other;
+    void lower_to(const Distances& to) {
+      other = std::min(other, to.other);
+      asked = std::min(asked, to.asked);
+      asked_as_read = std::min(asked_as_read, to.asked_as_read);
+    }
+  };
   CharacterFeatures::Neighbour nearest;
-  double from_asked = std::numeric_limits<double>::infinity(), from_asked_as_read = from_asked;
+  Distances least, as_it_is;
   // Both turned upright as in the reading and as it is: the reading of another character may turn it wrongly.
-  const Eigen::Matrix2d as_it_is = Eigen::Matrix2d::Identity();
-  for (const Eigen::Matrix2d& turn : {rotation_of(reading.costs->fit().linear), as_it_is}) {
+  for (const Eigen::Matrix2d& turn : {rotation_of(reading.costs->fit().linear), Eigen::Matrix2d(Eigen::Matrix2d::Identity())}) {
     std::vector<Outline> drawn;
     for (const PenPath& path : paths) drawn.push_back(outline(path) * turn.transpose());
     const CharacterFeature writing = character_feature(drawn), read = as_read(writing, reading);
     const auto near = characters.nearest(writing, asked_for.code);
-    if (near && near->distance < nearest.distance) nearest = *near;
-    from_asked = std::min(from_asked, apart(writing, asked));
-    if (read.size() > 0) from_asked_as_read = std::min(from_asked_as_read, apart(read, asked));
+    if (!near) return std::nullopt;
+    as_it_is = {near->distance, apart(writing, asked), read.size() > 0 ? apart(read, asked) : least.asked_as_read};
+    if (near->distance < least.other) nearest = *near;
+    least.lower_to(as_it_is);
   }
-  if (nearest.code == 0 || nearest.distance > judge_constants.named_distance) return std::nullopt;
+  if (least.other > judge_constants.named_distance) return std::nullopt;
   // A careless hand needs more evidence than a neat one.
-  const double doubt = judge_constants.carelessness * nearest.distance / std::sqrt(static_cast<double>(paths.size()));
+  const double doubt = judge_constants.carelessness * least.other / std::sqrt(static_cast<double>(paths.size()));
   // Along the line from one character to the other; `between` is its length.
-  const auto is_clear = [&](double from_one, double between) {
-    const double past_middle = (from_one * from_one - nearest.distance * nearest.distance) / (2.0 * between);
+  const auto is_clear = [&](double from_asked, double from_asked_as_it_is, double between) {
+    if (between < judge_constants.lookalike_distance) {
+      return as_it_is.other < judge_constants.twin_share * from_asked_as_it_is;
+    }
+    const double past_middle = (from_asked * from_asked - least.other * least.other) / (2.0 * between);
     return past_middle > judge_constants.beyond_middle * 0.5 * between + doubt;
   };
   const CharacterFeature other = characters.feature(nearest), other_as_read = as_read(other, reading);
   const double between = apart(asked, other);
-  if (between < judge_constants.drawn_alike_distance || !is_clear(from_asked, between)) return std::nullopt;
-  if (other_as_read.size() > 0 && !is_clear(from_asked_as_read, apart(asked, other_as_read))) return std::nullopt;
-  return OtherCharacter{nearest.code, between < judge_constants.lookalike_distance};
+  if (between < judge_constants.drawn_alike_distance || as_it_is.other >= as_it_is.asked) return std::nullopt;
+  OtherCharacter found{nearest.code, is_clear(least.asked, as_it_is.asked, between),
+                       between < judge_constants.lookalike_distance};
+  if (other_as_read.size() > 0 && !is_clear(least.asked_as_read, as_it_is.asked_as_read, apart(asked, other_as_read))) {
+    found.is_clear = false;
+  }
+  return found;
 }
 
 }  // namespace calligraphy

@@ -31,8 +31,7 @@ bool is_relation(StrokeRemarkKind kind) {
 
 /// Causes come before what follows from them: a shape before the crossings that it makes.
 int rank(const FormFault& fault) {
-  if (fault.strokes > 1) return 0;
-  if (is_shape(fault.kind)) return 1;
+  if (is_shape(fault.kind)) return fault.straight.empty() ? 1 : 0;
   if (fault.kind == StrokeRemarkKind::overlap) return 2;
   if (fault.kind == StrokeRemarkKind::place) return fault.is_shift ? 3 : 6;
   if (fault.kind == StrokeRemarkKind::proportion) return 5;
@@ -40,44 +39,59 @@ int rank(const FormFault& fault) {
   return is_relation(fault.kind) ? 4 : 7;
 }
 
-bool is_about(const FormFault& fault, std::size_t stroke) {
-  return (stroke >= fault.stroke && stroke < fault.stroke + fault.strokes) || fault.other == stroke;
+/// Whether a fault may be the cause of more evident ones.
+bool is_sure(const FormFault& fault) { return fault.evidence >= sure || is_shape(fault.kind); }
+
+/// A fault, and everything that shows it.
+struct FaultGroup {
+  FormFault fault;
+  std::vector<std::size_t> strokes;  ///< that are at fault
+
+  bool has(std::size_t stroke) const { return std::find(strokes.begin(), strokes.end(), stroke) != strokes.end(); }
+  bool is_about(const FormFault& other) const { return has(other.stroke) || (other.other && has(*other.other)); }
+};
+
+std::vector<std::size_t> strokes_of(const FormFault& fault) {
+  if (!fault.straight.empty()) return fault.straight;
+  if (fault.other) return {fault.stroke, *fault.other};
+  return {fault.stroke};
 }
 
 /// Whether a fault shows what another one already says.
-bool explains(const FormFault& cause, const FormFault& fault) {
-  if (cause.strokes > 1) return is_shape(fault.kind) || is_relation(fault.kind);
-  if (cause.other) {  // a relation
-    const bool is_same_pair = is_about(fault, cause.stroke) && is_about(fault, *cause.other);
-    if (is_same_pair) return true;
-    if (cause.kind == StrokeRemarkKind::overlap || cause.kind == StrokeRemarkKind::side) {
-      return is_about(fault, cause.stroke) || is_about(fault, *cause.other);
-    }
-    const bool shares_stroke = is_about(fault, cause.stroke) || is_about(fault, *cause.other);
-    if (fault.other) return shares_stroke && (fault.place - cause.place).norm() < one_place;
-    return fault.stroke == cause.stroke && !is_shape(fault.kind) && fault.kind != StrokeRemarkKind::hook;
+bool explains(const FaultGroup& cause, const FormFault& fault) {
+  if (!cause.is_about(fault)) return false;
+  if (!cause.fault.other) return fault.straight.empty() || is_shape(cause.fault.kind);  // a shape, a place or a length
+  if (cause.fault.kind == StrokeRemarkKind::overlap || cause.fault.kind == StrokeRemarkKind::side) return true;
+  if (fault.other) {
+    const bool is_same_pair = cause.has(fault.stroke) && cause.has(*fault.other);
+    return is_same_pair || (fault.place - cause.fault.place).norm() < one_place;
   }
-  return is_about(fault, cause.stroke) && fault.strokes == 1;  // a shape, a place or a length
+  return fault.stroke == cause.fault.stroke && !is_shape(fault.kind) && fault.kind != StrokeRemarkKind::hook;
 }
 
 /// One fault for each of those that are independent, with the evidence of all that it explains.
-std::vector<FormFault> grouped(std::vector<FormFault> faults) {
+std::vector<FaultGroup> grouped(std::vector<FormFault> faults) {
   std::sort(faults.begin(), faults.end(), [](const FormFault& one, const FormFault& other) {
-    const bool is_sure = one.evidence >= sure, is_other_sure = other.evidence >= sure;
-    return std::tuple(!is_sure, is_sure ? rank(one) : 0, -one.evidence, one.stroke, one.other) <
-           std::tuple(!is_other_sure, is_other_sure ? rank(other) : 0, -other.evidence, other.stroke, other.other);
+    const auto key = [](const FormFault& fault) {
+      return std::tuple(!is_sure(fault), is_sure(fault) ? rank(fault) : 0, -fault.evidence, fault.stroke, fault.other);
+    };
+    return key(one) < key(other);
   });
-  std::vector<FormFault> leaders;
+  std::vector<FaultGroup> groups;
   for (const FormFault& fault : faults) {
-    const auto cause = std::find_if(leaders.begin(), leaders.end(),
-                                    [&](const FormFault& leader) { return explains(leader, fault); });
-    if (cause == leaders.end()) {
-      leaders.push_back(fault);
-    } else {
-      cause->evidence = std::max(cause->evidence, fault.evidence);
+    const auto cause = std::find_if(groups.begin(), groups.end(),
+                                    [&](const FaultGroup& group) { return explains(group, fault); });
+    if (cause == groups.end()) {
+      groups.push_back({fault, strokes_of(fault)});
+      continue;
+    }
+    cause->fault.evidence = std::max(cause->fault.evidence, fault.evidence);
+    if (fault.kind != StrokeRemarkKind::overlap || cause->fault.kind != StrokeRemarkKind::overlap) continue;
+    for (const std::size_t stroke : strokes_of(fault)) {
+      if (!cause->has(stroke)) cause->strokes.push_back(stroke);
     }
   }
-  return leaders;
+  return groups;
 }
 
 }  // namespace
@@ -92,23 +106,35 @@ std::vector<StrokeRemark> form_remarks(const CharacterForm& form, const WrittenF
   for (std::size_t path = 0; path < drawn.size(); ++path) {
     if (drawn[path].stroke >= 0) paths[static_cast<std::size_t>(drawn[path].stroke)] = static_cast<int>(path);
   }
-  for (const FormFault& fault : grouped(form_faults(form, written, least_grouped))) {
+  for (FaultGroup& group : grouped(form_faults(form, written, least_grouped))) {
+    const FormFault& fault = group.fault;
     const double evidence = evidence_of(fault.evidence);
     if (evidence < least) continue;
-    const bool is_all = fault.strokes > 1;
-    remarks.push_back({.kind = fault.kind,
-                       .path = is_all ? 0 : paths[fault.stroke],
-                       .path_count = is_all ? static_cast<int>(drawn.size()) : 1,
-                       .stroke = static_cast<int>(fault.stroke),
-                       .stroke_count = static_cast<int>(fault.strokes),
-                       .other_path = fault.other ? paths[*fault.other] : -1,
-                       .other_stroke = fault.other ? static_cast<int>(*fault.other) : -1,
-                       .place = back * (fault.place - map.offset),
-                       .evidence = evidence,
-                       .length = fault.length,
-                       .end = fault.end,
-                       .amount = fault.amount,
-                       .offset = fault.offset});
+    StrokeRemark remark{.kind = fault.kind,
+                        .path = paths[fault.stroke],
+                        .path_count = 1,
+                        .stroke = static_cast<int>(fault.stroke),
+                        .stroke_count = 1,
+                        .other_path = fault.other ? paths[*fault.other] : -1,
+                        .other_stroke = fault.other ? static_cast<int>(*fault.other) : -1,
+                        .place = back * (fault.place - map.offset),
+                        .evidence = evidence,
+                        .length = fault.length,
+                        .end = fault.end,
+                        .amount = fault.amount,
+                        .offset = fault.offset};
+    std::sort(group.strokes.begin(), group.strokes.end());
+    const auto [first, last] = std::pair(group.strokes.front(), group.strokes.back());
+    if (!fault.straight.empty()) {
+      remark.path = 0, remark.path_count = static_cast<int>(drawn.size());
+      remark.stroke = 0, remark.stroke_count = static_cast<int>(form.count());
+    } else if (fault.kind == StrokeRemarkKind::overlap && group.strokes.size() > 2 &&
+               last - first + 1 == group.strokes.size()) {
+      remark.stroke = static_cast<int>(first), remark.stroke_count = static_cast<int>(group.strokes.size());
+      remark.path = paths[first];
+      remark.other_stroke = remark.other_path = -1;
+    }
+    remarks.push_back(remark);
   }
   std::stable_sort(remarks.begin(), remarks.end(),
                    [](const StrokeRemark& one, const StrokeRemark& other) { return one.path < other.path; });
