@@ -23,6 +23,7 @@ constexpr double closer = 0.6;                   // gap over that of the charact
 constexpr double least_bow = 0.05, kept_bend = 0.3;   // bow of a bent stroke [em], and share of it that is enough [1]
 constexpr double least_lacking = 0.03;                // bow of a stroke that counts as straight with the others [em]
 constexpr double most_bent = 0.2, free_bow = 0.08;    // bows over lengths [1]
+constexpr double least_left_out = 0.1;  // length of a stroke of which only a part was drawn [em]
 constexpr double one_sided = 0.4;  // mean distance from the chord, over the largest, of a bend rather than waves [1]
 constexpr double shortest_shaped = 0.12, shortest_drawn = 0.1;  // strokes that have a shape [em]
 constexpr double full_bend_length = 0.3, full_wave_length = 0.4;  // lengths from which a bend or a wave counts in full [em]
@@ -60,6 +61,21 @@ Bend bend(const FormLine& drawn, const FormLine& stroke) {
   const double waved = std::min(1.0, wave_share * wave_share) * detour / judge_constants.wavy_limit;
   const bool is_one_sided = std::abs(mean_offset(drawn)) > one_sided * std::abs(bow(drawn));
   return {std::max(bowed, waved), more * length, waved > bowed && !(bowed >= 1.0 && is_one_sided)};
+}
+
+/// The part of a stroke that was drawn, if it begins late or ends early: no more of its bend can be expected.
+std::optional<FormLine> part_drawn(const FormLine& drawn, const FormLine& stroke) {
+  const double left_out = stroke.length() - drawn.length();
+  if (left_out < least_left_out) return std::nullopt;
+  const auto kept = static_cast<std::size_t>(std::lround(drawn.length() / stroke.length() * (form_points - 1))) + 1;
+  const std::span<const Point> points(stroke.points);
+  for (const auto& [part, is_first] : {std::pair(points.first(kept), true), std::pair(points.last(kept), false)}) {
+    const Point end = is_first ? drawn.points.back() : drawn.points.front();
+    const double from_part = (end - (is_first ? part.back() : part.front())).norm();
+    const double from_whole = (end - (is_first ? points.back() : points.front())).norm();
+    if (from_whole > least_left_out && from_part < 0.5 * from_whole) return form_line(part);
+  }
+  return std::nullopt;
 }
 
 class FormFaults {
@@ -244,10 +260,13 @@ class FormFaults {
       if (has_hook) drawn_ways.push_back(without_hook(drawn));
       double lacks = std::numeric_limits<double>::infinity();
       Bend bent{std::numeric_limits<double>::infinity()};
+      std::vector<FormLine> stroke_ways = {form_.strokes[i]};
+      if (form_.hooks[i]) stroke_ways.push_back(form_.bodies[i]);
+      if (const auto part = part_drawn(drawn, form_.bodies[i])) stroke_ways.push_back(*part);
       for (const FormLine& way : drawn_ways) {
-        for (const FormLine* stroke : {&form_.strokes[i], &form_.bodies[i]}) {
-          lacks = std::min(lacks, lacking_bow(way, *stroke));
-          const Bend found = bend(way, *stroke);
+        for (const FormLine& stroke : stroke_ways) {
+          lacks = std::min(lacks, lacking_bow(way, stroke));
+          const Bend found = bend(way, stroke);
           if (found.evidence < bent.evidence) bent = found;
         }
       }
