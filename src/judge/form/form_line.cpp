@@ -16,6 +16,7 @@ namespace {
 
 using detail::judge_constants;
 
+constexpr std::size_t smoothing = 8;   // eighths of a step on either side of a point of which it is the mean
 constexpr std::size_t turn_reach = 3;  // points on either side over which a turn is measured
 constexpr double no_length = 1e-6;     // [em]
 
@@ -46,9 +47,15 @@ FormLine form_line(const std::array<Point, form_points>& points) {
 }
 
 FormLine form_line(std::span<const Point> path) {
-  const std::vector<Point> even = points_along(path, path_length(path), form_points);
+  constexpr std::size_t fine = 8;  // samples for each step
+  const std::vector<Point> samples = points_along(path, path_length(path), (form_points - 1) * fine + 1);
   std::array<Point, form_points> points = {};
-  std::copy(even.begin(), even.end(), points.begin());
+  for (std::size_t k = 0; k < form_points; ++k) {
+    const std::size_t middle = k * fine, reach = std::min({smoothing, middle, samples.size() - 1 - middle});
+    Point sum = Point::Zero();
+    for (std::size_t i = middle - reach; i <= middle + reach; ++i) sum += samples[i];
+    points[k] = sum / static_cast<double>(2 * reach + 1);
+  }
   return form_line(points);
 }
 
