@@ -115,6 +115,7 @@ struct FormMatch {
   MatchResult result;
   double price = 0.0;               ///< price of the reading [em]
   std::size_t mistakes = 0;         ///< number of remarks at JudgeTolerances::normal(), whatever is reported in the end
+  std::optional<CharacterForm> character_form = {};
   std::vector<StrokeRemark> form = {};  ///< remarks on form
   std::size_t form_mistakes = 0;        ///< number of those at JudgeTolerances::normal()
 };
@@ -158,7 +159,7 @@ FormMatch match_form(const Character& character, std::span<const PenPath> paths,
 
 /// Judges the form, of a reading that may be chosen.
 void judge_form(FormMatch& matched, const Character& character, std::span<const PenPath> steady, double least) {
-  const CharacterForm form(middle_lines(character));
+  const CharacterForm& form = matched.character_form.emplace(middle_lines(character));
   const std::vector<DrawnStroke>& drawn = matched.result.drawn;
   matched.form = form_remarks(form, written_form(form, steady, drawn), drawn, std::min(least, sure_evidence));
   matched.form_mistakes = static_cast<std::size_t>(
@@ -279,7 +280,8 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   std::optional<WholeFault> whole;
   if (tolerances.form) {
     const std::size_t compared = best_of_same_count.value_or(best);
-    whole = whole_fault(CharacterForm(middle_lines(accepted[compared])), steady);
+    std::optional<CharacterForm>& form = matched[compared].character_form;
+    whole = whole_fault(form ? *form : form.emplace(middle_lines(accepted[compared])), steady);
     if (whole) {
       best = compared;
     } else if (!(other && other->is_clear) && is_unreadable(matched[best])) {
