@@ -82,6 +82,7 @@ struct JudgeConstants {
   double max_one_of_several = 0.19;    ///< greatest residual of a character beside which there is more [em]
 
   double far_distance = 0.1;           ///< mean distance of pen-downs from which they cannot be read [em]
+  double max_unremarked_distance = 0.09;  ///< mean distance that needs a remark: of 1413 right pens, 0.083 at most [em]
   double far_shape = 0.05;             ///< the same once both have the same centre: below, it is only misplaced [em]
   double unreadable_share = 0.4;       ///< least share of pen-downs that are farther than that [1]
 

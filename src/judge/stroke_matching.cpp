@@ -167,25 +167,45 @@ void judge_form(FormMatch& matched, const Character& character, std::span<const 
                     [](const StrokeRemark& remark) { return remark.evidence >= sure_evidence; }));
 }
 
-/// Whether most of the pen-downs are so far from what they wrote, in place and shape, that they cannot be read.
-bool is_unreadable(const FormMatch& matched) {
-  constexpr double fewest = 3.0;  // pen-downs: of fewer, each is judged
+/// How far the pen-downs are from what they wrote.
+struct Farness {
+  double count = 0.0;     ///< number of pen-downs
+  double distance = 0.0;  ///< their mean distance [em]
+  double unlike = 0.0;    ///< the same, without those that are only misplaced [em]
+  double far = 0.0;       ///< share of pen-downs that are far in place and shape [1]
+};
+
+Farness farness_of(const FormMatch& matched) {
   const StrokeReading& reading = matched.reading;
-  double sum = 0.0, count = 0.0, far = 0.0;
+  Farness sum;
   for (const ReadingStep& step : reading.steps) {
     if (step.paths == 0 || (step.paths == 1 && reading.costs->is_tap(step.path))) continue;
-    const bool is_attempt = step.strokes == 0 && matched.result.drawn[step.path].attempt >= 0;
-    double distance = is_attempt ? judge_constants.far_distance : judge_constants.left_over_cost;
+    const DrawnStroke& drawn = matched.result.drawn[step.path];
+    double distance = drawn.attempt >= 0 ? judge_constants.far_distance : judge_constants.left_over_cost, unlike = distance;
     if (step.strokes > 0) {
-      distance = matched.result.drawn[step.path].distance;
+      distance = unlike = drawn.distance;
       const bool is_alike = shape_distance(step, reading, *matched.outlines) < judge_constants.far_shape;
-      if (is_alike) distance = std::min(distance, judge_constants.far_distance);
+      if (is_alike) unlike = std::min(unlike, judge_constants.far_distance);
     }
-    sum += distance;
-    ++count;
-    if (distance > judge_constants.far_distance) ++far;
+    ++sum.count;
+    sum.distance += distance;
+    sum.unlike += unlike;
+    if (unlike > judge_constants.far_distance) ++sum.far;
   }
-  return count >= fewest && sum > judge_constants.far_distance * count && far >= judge_constants.unreadable_share * count;
+  const double count = std::max(sum.count, 1.0);
+  return {sum.count, sum.distance / count, sum.unlike / count, sum.far / count};
+}
+
+/// Whether the writing cannot be read as the character: most of it is far off, or it is farther from the character than
+/// right writing ever is and no remark says why.
+bool is_unreadable(const FormMatch& matched) {
+  constexpr double fewest = 3.0;  // pen-downs: of fewer, each is judged
+  const Farness farness = farness_of(matched);
+  if (farness.count >= fewest && farness.unlike > judge_constants.far_distance &&
+      farness.far >= judge_constants.unreadable_share) {
+    return true;
+  }
+  return farness.distance > judge_constants.max_unremarked_distance && matched.mistakes + matched.form_mistakes == 0;
 }
 
 /// Tells that a fault of form makes another character, if it is the only one: then whoever reads it learns how.

@@ -79,6 +79,7 @@ constexpr auto named_constants = std::to_array<NamedConstant>({
     {"part_factor", &JudgeConstants::part_factor},
     {"max_one_of_several", &JudgeConstants::max_one_of_several},
     {"far_distance", &JudgeConstants::far_distance},
+    {"max_unremarked_distance", &JudgeConstants::max_unremarked_distance},
     {"far_shape", &JudgeConstants::far_shape},
     {"unreadable_share", &JudgeConstants::unreadable_share},
     {"max_form_turn", &JudgeConstants::max_form_turn},

@@ -145,6 +145,7 @@ std::optional<WholeFault> whole_fault(const CharacterForm& form, std::span<const
   std::vector<FormLine> written;
   for (const PenPath& path : paths) written.push_back(form_line(path));
   if (written.size() != form.count()) return several_characters(form.strokes, written);
+  if (written.size() < 2) return std::nullopt;  // a line that is turned is another line
   const auto orientation = orientation_of(form.strokes, written);
   return orientation ? orientation : exchanged_parts(form.strokes, written);
 }
