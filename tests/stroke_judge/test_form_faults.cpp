@@ -180,15 +180,16 @@ TEST_CASE("a fault is told by a remark of its kind that names its stroke, and by
 }
 
 TEST_CASE("each fault of form in middle lines and in people's pens is told, and no form of right ones", "[judge]") {
-  // Least share that is told [%]. Of middle lines: the marks of docs/practice.md less what so few characters spread by.
+  // Least share that is told [%], by regression: the figures of thousands are in docs/practice.md. Of two to four strokes,
+  // as most built-in characters have, nobody can say which one is out of place.
   struct Mark {
     const char* row;
     double percent;
   };
   constexpr Mark marks[] = {{"protrude-15", 95}, {"protrude-25", 92}, {"short-30", 95},    {"short-20", 80},
                             {"collapse-0", 90},  {"collapse-25", 85}, {"all-collapse", 95}, {"chords", 93},
-                            {"chord-20-30", 90}, {"arch-25", 95},     {"zigzag-16", 95},   {"displaced-30", 88},
-                            {"displaced-20", 75}, {"parts", 90},      {"mirrored", 90},    {"upside-down", 90},
+                            {"chord-20-30", 90}, {"arch-25", 95},     {"zigzag-16", 95},   {"displaced-30", 78},
+                            {"displaced-20", 68}, {"parts", 90},      {"mirrored", 90},    {"upside-down", 90},
                             {"turned-left", 95}, {"turned-right", 95}, {"turned-half", 95}, {"twice", 97},
                             {"scribble", 90}};
   const auto check = [&](const std::vector<RightPen>& pens, const AcceptedForms& forms, double less, double clean) {
@@ -216,7 +217,7 @@ TEST_CASE("each fault of form in middle lines and in people's pens is told, and 
   check(lines, accepted_forms(set, lines), 0.0, 0.0);
   const auto all = people();
   if (!all) return;
-  check(all->pens, accepted_forms(CharacterSet::layered(all->sets), all->pens), 8.0, 3.5);
+  check(all->pens, accepted_forms(CharacterSet::layered(all->sets), all->pens), 10.0, 6.0);
 }
 
 }  // namespace calligraphy_test
