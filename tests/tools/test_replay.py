@@ -2,6 +2,7 @@ import json
 import math
 import unicodedata
 import xml.etree.ElementTree as xml
+from pathlib import Path
 
 from program import ProgramTest
 
@@ -9,6 +10,27 @@ from program import ProgramTest
 THREE = [((160, 220), (840, 200)), ((240, 500), (760, 480)), ((80, 800), (920, 790))]
 TEN = [((100, 500), (900, 470)), ((500, 80), (500, 940))]
 SVG = "{http://www.w3.org/2000/svg}"
+BUILT_IN = Path(__file__).resolve().parents[2] / "data" / "characters.txt"
+# 明, and 已 and 己, which differ in where stroke 3 begins.
+MORE = """calligraphy characters 2
+character 明
+stroke 2 0.13,0.78 0.13,0.24
+stroke 16 0.13,0.78 0.38,0.79 0.38,0.25
+stroke 1 0.13,0.53 0.37,0.54
+stroke 1 0.13,0.28 0.37,0.29
+stroke 4 0.55,0.86 0.55,0.50 0.53,0.26 0.40,0.09
+stroke 18 0.55,0.86 0.86,0.87 0.86,0.12 0.77,0.16
+stroke 1 0.55,0.63 0.85,0.64
+stroke 1 0.55,0.41 0.85,0.42
+character 已
+stroke 16 0.24,0.82 0.70,0.84 0.70,0.52
+stroke 1 0.26,0.52 0.69,0.54
+stroke 31 LLLL 0.25,0.68 0.25,0.14 0.31,0.08 0.84,0.08 0.85,0.24
+character 己
+stroke 16 0.24,0.82 0.70,0.84 0.70,0.52
+stroke 1 0.26,0.52 0.69,0.54
+stroke 31 LLLL 0.25,0.52 0.25,0.14 0.31,0.08 0.84,0.08 0.85,0.24
+"""
 
 
 def stroke(begin, end, time):
@@ -280,6 +302,52 @@ class Replay(ReplayTest):
             for key in ("command", "date"):
                 del record[key]
         self.assertEqual(*records)
+
+
+class Form(ReplayTest):
+    def setUp(self):
+        super().setUp()
+        (self.directory / "more.txt").write_text(MORE, encoding="utf-8")
+        self.sets = ("--characters", str(BUILT_IN), "--characters", "more.txt")
+        rows = json.loads(self.run_program("info", "刀三永明已己", *self.sets, "--json").stdout)["text"]
+        self.templates = {row["character"]: [stroke["control_points_em"] for stroke in row["strokes"]] for row in rows}
+
+    def told(self, code, strokes):
+        """What is told of strokes through these points, y up: the table, and its trace in JSON."""
+        lines = [" ".join(f"{1000 * x:g} {1000 - 1000 * y:g} {1000 * number + 100 * i}" for i, (x, y) in enumerate(points))
+                 for number, points in enumerate(strokes)]
+        text = f"C {code} {ord(code):X} form 1000 {len(lines)}\n" + "".join(
+            f"S {len(points)} {line}\n" for points, line in zip(strokes, lines))
+        # A file of turned writing alone would be taken for one whose y points up.
+        (trace,) = self.replay(text, options=(*self.sets, "--y-axis", "down"))["traces"]
+        return self.run_program("replay", "pens.txt", *self.sets, "--y-axis", "down").stdout, trace
+
+    def test_what_is_wrong_with_the_form_is_told(self):
+        of = self.templates
+        dao, yong, ming = of["刀"], of["永"], of["明"]
+        mirrored = [[(1 - x, y) for x, y in points] for points in yong]
+        exchanged = [[(x + (0.45 if i < 4 else -0.40), y) for x, y in points] for i, points in enumerate(ming)]
+        for code, strokes, cells, kind, words in (
+                ("永", mirrored, "unclear unclear mirrored or turned", "orientation", "永 is mirrored"),
+                ("明", exchanged, "unclear unclear parts exchanged", "parts", "strokes 1 (shù) to 4 (héng) belong at the left"),
+                ("三", [of["三"][1]] * 3, "unclear unclear unreadable", "unreadable", "cannot be read as 三"),
+                ("刀", [dao[0], [(0.525, 1.0), *dao[1]]], "correct correct 1 crossing", "crossing",
+                 "Stroke 2 (piě) begins too high"),
+                ("永", [[points[0], points[-1]] for points in yong], "correct correct 1 straight", "straight",
+                 "The strokes are straight"),
+                ("已", of["己"], "correct correct 1 not crossing", "no crossing",
+                 "Stroke 3 (shùwāngōu) begins too low: here it becomes 己")):
+            with self.subTest(character=code, kind=kind):
+                table, trace = self.told(code, strokes)
+                (remark,) = trace["remarks"]
+                self.assertEqual((remark["kind"], remark["orientation"]),
+                                 (kind, "mirrored" if kind == "orientation" else "upright"))
+                self.assertIn(cells, " ".join(table.splitlines()[2].split()))
+                self.assertIn(words, table)
+                self.assertEqual(self.told(code, of[code])[1]["remarks"], [])
+        (crossing,) = self.told("刀", [dao[0], [(0.525, 1.0), *dao[1]]])[1]["remarks"]
+        self.assertEqual((crossing["stroke"], crossing["other_stroke"], crossing["end"]), (2, 1, "start"))
+        self.assertAlmostEqual(crossing["amount_em"], 0.2, delta=0.1)
 
 
 class Refusals(ReplayTest):
