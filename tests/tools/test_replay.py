@@ -314,8 +314,8 @@ class Form(ReplayTest):
 
     def told(self, code, strokes):
         """What is told of strokes through these points, y up: the table, and its trace in JSON."""
-        lines = [" ".join(f"{1000 * x:g} {1000 - 1000 * y:g} {1000 * number + 100 * i}" for i, (x, y) in enumerate(points))
-                 for number, points in enumerate(strokes)]
+        lines = [" ".join(f"{1000 * x:g} {1000 - 1000 * y:g} {1000 * number + 100 * i}"
+                          for i, (x, y) in enumerate(points)) for number, points in enumerate(strokes)]
         text = f"C {code} {ord(code):X} form 1000 {len(lines)}\n" + "".join(
             f"S {len(points)} {line}\n" for points, line in zip(strokes, lines))
         # A file of turned writing alone would be taken for one whose y points up.
@@ -329,7 +329,8 @@ class Form(ReplayTest):
         exchanged = [[(x + (0.45 if i < 4 else -0.40), y) for x, y in points] for i, points in enumerate(ming)]
         for code, strokes, cells, kind, words in (
                 ("永", mirrored, "unclear unclear mirrored or turned", "orientation", "永 is mirrored"),
-                ("明", exchanged, "unclear unclear parts exchanged", "parts", "strokes 1 (shù) to 4 (héng) belong at the left"),
+                ("明", exchanged, "unclear unclear parts exchanged", "parts",
+                 "strokes 1 (shù) to 4 (héng) belong at the left"),
                 ("三", [of["三"][1]] * 3, "unclear unclear unreadable", "unreadable", "cannot be read as 三"),
                 ("刀", [dao[0], [(0.525, 1.0), *dao[1]]], "correct correct 1 crossing", "crossing",
                  "Stroke 2 (piě) begins too high"),
