@@ -255,7 +255,9 @@ TEST_CASE("whatever is wrong is said in short sentences, in both languages", "[j
       ++seen[remark.kind];
       const auto [english, chinese] = in_both(remark, character);
       CAPTURE(encode_utf8(character.code), english, chinese);
-      const bool is_sentence = 'A' <= english.front() && english.front() <= 'Z' && english.ends_with('.');
+      const bool is_capital = 'A' <= english.front() && english.front() <= 'Z';
+      const bool is_sentence =
+          (is_capital || english.starts_with(encode_utf8(character.code))) && english.ends_with('.');
       const bool is_short = length_in_characters(english) <= 120 && length_in_characters(chinese) <= 60;
       const bool is_plain = english.find("pen-down") == english.npos && english.find("  ") == english.npos;
       const bool is_chinese = chinese.ends_with("。") && std::none_of(chinese.begin(), chinese.end(), [](char each) {

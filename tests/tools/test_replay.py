@@ -150,9 +150,9 @@ class Replay(ReplayTest):
         def turned(lines):
             return [tuple((x, 1000 - y) for x, y in line) for line in lines]
 
-        dai = [((120, 400), (900, 390)), ((500, 100), (120, 900)), ((500, 400), (880, 900))]
+        earth = [((200, 400), (800, 390)), ((500, 100), (500, 890)), ((120, 900), (880, 890))]
         tree = [((100, 350), (900, 340)), ((500, 80), (500, 940)), ((480, 350), (120, 750)), ((520, 350), (880, 740))]
-        written = (("十", TEN), ("三", THREE), ("大", dai), ("木", tree))
+        written = (("十", TEN), ("三", THREE), ("土", earth), ("木", tree))
         pupils = [character(code, turned(lines)) for code, lines in written]
         report = self.replay(*pupils)
         self.assertEqual([trace["remarks"] for trace in report["traces"]], [[], [], [], []])
@@ -331,7 +331,7 @@ class Form(ReplayTest):
                 ("永", mirrored, "unclear unclear mirrored or turned", "orientation", "永 is mirrored"),
                 ("明", exchanged, "unclear unclear parts exchanged", "parts",
                  "strokes 1 (shù) to 4 (héng) belong at the left"),
-                ("三", [of["三"][1]] * 3, "unclear unclear unreadable", "unreadable", "cannot be read as 三"),
+                ("三", [of["三"][1]] * 3, "correct correct 1 overlapping", "overlap", "lie on one another"),
                 ("刀", [dao[0], [(0.525, 1.0), *dao[1]]], "correct correct 1 crossing", "crossing",
                  "Stroke 2 (piě) begins too high"),
                 ("永", [[points[0], points[-1]] for points in yong], "correct correct 1 straight", "straight",
