@@ -225,8 +225,8 @@ TEST_CASE("where a form of fewer strokes is accepted as well, another character 
 TEST_CASE("twins are told by their proportions, and of lookalikes there is a note", "[judge]") {
   const Character earth = cross_on_a_line(U'土', 0.45), scholar = cross_on_a_line(U'士', 0.75);
   const CharacterIndex twins = index_of({earth, scholar});
-  CHECK(told(earth, copy_of(scholar), twins) == "character 士");
-  CHECK(told(scholar, copy_of(earth), twins) == "character 土");
+  CHECK(told(earth, copy_of(scholar), twins) == "proportion 士");
+  CHECK(told(scholar, copy_of(earth), twins) == "proportion 土");
   CHECK(told(scholar, copy_of(scholar), twins).empty());
 
   const Character nearly = cross_on_a_line(U'士', 0.5);
@@ -234,7 +234,7 @@ TEST_CASE("twins are told by their proportions, and of lookalikes there is a not
   CHECK(told(earth, copy_of(nearly), lookalikes) == "lookalike 士");
   const std::vector<PenPath> turned =
       moved(copy_of(scholar), Eigen::Rotation2Dd(0.35).toRotationMatrix(), Point(0.3, -0.1));
-  CHECK(told(earth, turned, twins) == "character 士");
+  CHECK(told(earth, turned, twins) == "proportion 士");
   CHECK(told(scholar, turned, twins).empty());
 
   const Character all_but_same = cross_on_a_line(U'士', 0.455);

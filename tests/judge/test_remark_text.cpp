@@ -240,8 +240,13 @@ TEST_CASE("of a line too many it is said by its number to leave it out, or how t
 TEST_CASE("of another character it is said which it is", "[judge]") {
   const Character earth = cross_above_line(U'土', 0.45), scholar = cross_above_line(U'士', 0.75);
   const CharacterIndex twins(CharacterSet(CharacterList{{}, {earth, scholar}}));
-  CHECK(said(Kind::character, scholar, copy_of(earth), &twins) ==
-        Said("This looks like 土, not 士: have another look at the model.", "这像“土”，不像“士”，再看看范字。"));
+  CHECK(said(Kind::proportion, scholar, copy_of(earth), &twins) ==
+        Said("Stroke 1 (héng) should be longer than stroke 3 (héng): here it becomes 土.",
+             "第1笔（横）应该比第3笔（横）长，不然就成了“土”。"));
+  const Character two = built_in("二"), ten = built_in("十");
+  const CharacterIndex both(CharacterSet(CharacterList{{}, {two, ten}}));
+  CHECK(said(Kind::character, two, copy_of(ten), &both) ==
+        Said("This looks like 十, not 二: have another look at the model.", "这像“十”，不像“二”，再看看范字。"));
   const Character nearly = cross_above_line(U'士', 0.5);
   const CharacterIndex lookalikes(CharacterSet(CharacterList{{}, {earth, nearly}}));
   CHECK(said(Kind::lookalike, earth, copy_of(nearly), &lookalikes) ==

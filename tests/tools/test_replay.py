@@ -160,7 +160,7 @@ class Replay(ReplayTest):
         self.assertEqual((told.count("y seems to point up"), len(report["warnings"])), (1, 1))
         left = self.replay(*pupils, options=("--y-axis", "down"))
         self.assertEqual(left["warnings"], [])
-        self.assertIn("direction", [remark["kind"] for remark in left["traces"][0]["remarks"]])
+        self.assertEqual([remark["orientation"] for remark in left["traces"][0]["remarks"]], ["upside down"])
         alone = self.replay(pupils[0], options=("--y-axis", "up"))
         self.assertEqual((alone["warnings"], alone["traces"][0]["remarks"]), ([], []))
 
