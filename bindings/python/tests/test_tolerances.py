@@ -199,6 +199,14 @@ def test_a_slanted_stroke_is_told_beyond_the_angle_of_its_preset(preset):
         assert match.drawn[0].stroke == 0 and match.drawn[0].direction is expected
 
 
+def test_form_is_judged_unless_it_is_switched_off():
+    eternal = cal.built_in_characters()["永"]
+    chords = [stroke.input().control_points[[0, -1]] for stroke in eternal.strokes()]
+    remark, = cal.match_strokes(eternal, chords).remarks
+    assert remark.kind is cal.StrokeRemarkKind.straight and remark.orientation is cal.WritingOrientation.upright
+    assert not cal.match_strokes(eternal, chords, cal.JudgeTolerances(form=False)).remarks
+
+
 def test_wrong_tolerances_and_paths_are_refused_by_the_judge_of_strokes():
     one = cal.built_in_characters()["一"]
     with pytest.raises(cal.InvalidValue, match="tolerances.evidence = -1"):
