@@ -59,7 +59,7 @@ struct JudgeConstants {
 
   // Remarks.
   double joined_evidence = 0.5;  ///< evidence of a remark on joined strokes, for each of them [1]
-  double sure_part = 0.2;  ///< share of the shorter part of a broken stroke above which the evidence exceeds 1 [1]
+  double sure_part = 0.2;  ///< share of a broken stroke beside its longest part above which the evidence exceeds 1 [1]
 
   // Other characters.
   double feature_deviation = 0.25;     ///< standard deviation of the points of a feature along each axis [em]

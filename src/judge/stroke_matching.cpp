@@ -68,16 +68,16 @@ double shape_distance(const ReadingStep& step, const StrokeReading& reading, con
   const StrokeCosts& costs = *reading.costs;
   const Outline& line = strokes.run(step.stroke, step.strokes).line;
   const Outline wanted = reading.pair(step).backwards ? reversed(line) : line;
-  const Outline& drawn = step.paths > 1 ? costs.placed_with_next(step.path) : costs.placed(step.path);
+  const Outline& drawn = costs.placed(step.path, step.paths);
   return mean_distance(drawn.rowwise() - drawn.colwise().mean(), wanted.rowwise() - wanted.colwise().mean());
 }
 
-/// Mean distance of the pen-downs of a step from its strokes; of both parts of a broken stroke together.
+/// Mean distance of the pen-downs of a step from its strokes; of all parts of a broken stroke together.
 double distance_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
   const StrokeCosts& costs = *reading.costs;
   const Outline& line = strokes.run(step.stroke, step.strokes).line;
   const Outline wanted = reading.pair(step).backwards ? reversed(line) : line;
-  return mean_distance(step.paths > 1 ? costs.placed_with_next(step.path) : costs.placed(step.path), wanted);
+  return mean_distance(costs.placed(step.path, step.paths), wanted);
 }
 
 /// Finds what a pen-down that wrote no stroke attempted: the stroke it resembles most among those along or against
@@ -208,6 +208,11 @@ bool is_unreadable(const FormMatch& matched) {
   return farness.distance > judge_constants.max_unremarked_distance && matched.mistakes + matched.form_mistakes == 0;
 }
 
+/// Whether every pen-down wrote a stroke, or bounced: then there is nothing beside the character.
+bool all_wrote(std::span<const DrawnStroke> drawn) {
+  return std::all_of(drawn.begin(), drawn.end(), [](const DrawnStroke& each) { return each.stroke >= 0 || each.tap; });
+}
+
 /// Tells that a fault of form makes another character, if it is the only one: then whoever reads it learns how.
 bool make_other(std::vector<StrokeRemark>& form, char32_t code) {
   const auto is_fault = [](const StrokeRemark& remark) { return remark.evidence >= sure_evidence; };
@@ -302,6 +307,7 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
     const std::size_t compared = best_of_same_count.value_or(best);
     std::optional<CharacterForm>& form = matched[compared].character_form;
     whole = whole_fault(form ? *form : form.emplace(middle_lines(accepted[compared])), steady);
+    if (whole && whole->kind == StrokeRemarkKind::several && all_wrote(matched[compared].result.drawn)) whole.reset();
     if (whole) {
       best = compared;
     } else if (!(other && other->is_clear) && is_unreadable(matched[best])) {

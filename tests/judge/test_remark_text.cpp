@@ -172,6 +172,8 @@ TEST_CASE("of joined and broken strokes it is said when to lift the pen", "[judg
   drawn[1].resize(static_cast<std::size_t>(middle));
   CHECK(said(Kind::broken, ten, drawn) ==
         Said("Stroke 2 (shù) is in two pieces: draw it in one go.", "第2笔（竖）断成了两段，要一笔写完。"));
+  CHECK(said({.kind = Kind::broken, .path = 1, .path_count = 3, .stroke = 1, .stroke_count = 1}, ten) ==
+        Said("Stroke 2 (shù) is in three pieces: draw it in one go.", "第2笔（竖）断成了三段，要一笔写完。"));
 }
 
 TEST_CASE("of a missing stroke it is said where it belongs", "[judge]") {

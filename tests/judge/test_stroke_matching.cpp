@@ -644,6 +644,20 @@ TEST_CASE("a stroke written in two pen-downs is broken, neither missing nor extr
   CHECK(match.drawn[2].continues);
 }
 
+TEST_CASE("a stroke written in three pen-downs is broken once", "[judge]") {
+  const Character ten = character_of("十");
+  const std::vector<PenPath> drawn = {line({0.1, 0.5}, {0.9, 0.53}), line({0.5, 0.92}, {0.5, 0.64}),
+                                      line({0.5, 0.63}, {0.5, 0.36}), line({0.5, 0.35}, {0.5, 0.06})};
+  const MatchResult match = match_strokes(ten, drawn);
+  CAPTURE(told(match));
+  REQUIRE(match.remarks.size() == 1);
+  CHECK(match.remarks[0].kind == StrokeRemarkKind::broken);
+  CHECK(match.remarks[0].path == 1);
+  CHECK(match.remarks[0].path_count == 3);
+  CHECK(match.drawn[3].continues);
+  CHECK(match.drawn[1].length == Approx(1.0).margin(0.1));
+}
+
 TEST_CASE("a stroke drawn across its direction has another shape and is not reported as backwards", "[judge]") {
   const Character eternal = character_of("永");  // its first stroke is a dot
   std::vector<PenPath> drawn = copy_of(eternal);

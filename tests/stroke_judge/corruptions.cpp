@@ -20,6 +20,8 @@ using namespace calligraphy;
 namespace {
 
 constexpr double splittable = 0.2, turnable = 0.2, shortest_turned = 0.1;  // lengths of the shortest strokes [em]
+constexpr double splittable_in_three = 0.3;  // the same [em]
+constexpr double joinable = 0.1;            // distance of the ends of strokes that are joined out of turn [em]
 constexpr double again = 0.03;              // displacement of a stroke that is written again [em]
 constexpr double parallel_distance = 0.25;  // between centres [em]
 constexpr std::size_t longest_block = 3;
@@ -101,6 +103,10 @@ class Corrupter {
         return turn(shortest_turned, turnable);
       case Fault::block:
         return move_block();
+      case Fault::join_apart:
+        return join_apart();
+      case Fault::split_three:
+        return split_three();
       default:
         return true;
     }
@@ -180,17 +186,46 @@ class Corrupter {
     return true;
   }
 
+  bool split_three() {
+    const auto stroke = choose_stroke(splittable_in_three);
+    if (!stroke) return false;
+    const double second = random_.between(0.62, 0.72);
+    const auto [begun, last] = cut(paths_[*stroke], second);
+    const auto [first, middle] = cut(begun, random_.between(0.28, 0.38) / second);
+    paths_[*stroke] = first;
+    for (const PenPath& part : {last, middle}) {
+      insert_at(paths_, *stroke + 1, part);
+      insert_at(truth_.written, *stroke + 1, Written{static_cast<int>(*stroke), 1, true});
+    }
+    return true;
+  }
+
   bool join() {
     const auto first = choose_neighbours();
     if (!first) return false;
-    PenPath& joined = paths_[*first];
-    const PenPath& next = paths_[*first + 1];
+    join(*first, *first + 1);
+    truth_.written[*first].stroke_count = 2;
+    return true;
+  }
+  void join(std::size_t one, std::size_t other) {
+    PenPath& joined = paths_[one];
+    const PenPath& next = paths_[other];
     const PenPath between = straight_line(joined.back(), next.front());
     joined.insert(joined.end(), between.begin() + 1, between.end());
     joined.insert(joined.end(), next.begin() + 1, next.end());
-    erase_at(paths_, *first + 1);
-    erase_at(truth_.written, *first + 1);
-    truth_.written[*first].stroke_count = 2;
+    erase_at(paths_, other);
+    erase_at(truth_.written, other);
+  }
+
+  bool join_apart() {
+    const std::size_t count = paths_.size();
+    const auto pair = choose(count * count, [&](std::size_t i) {
+      const std::size_t one = i / count, other = i % count;
+      return other != one && other != one + 1 && (paths_[other].front() - paths_[one].back()).norm() <= joinable;
+    });
+    if (!pair) return false;
+    truth_.written[*pair / count].also = static_cast<int>(*pair % count);
+    join(*pair / count, *pair % count);
     return true;
   }
 
@@ -332,6 +367,8 @@ const std::vector<Corruption>& corruptions() {
       {"reverse,displaced-5", Fault::reverse, {.displaced = 0.05}},
       {"drop,displaced-5", Fault::drop, {.displaced = 0.05}},
       {"turned-short", Fault::turned_short},
+      {"join-apart", Fault::join_apart},
+      {"split-3", Fault::split_three},
   };
   return all;
 }

@@ -36,17 +36,19 @@ std::vector<bool> members(const calligraphy::Character& character, StrokeClass s
 /// What is done to one stroke or a few, or to none.
 enum class Fault {
   none,
-  swap,         ///< two strokes change their places in the order of writing
-  adjacent,     ///< two neighbours do
-  reverse,      ///< a pen-down whose chord is at least half of its length, and which is no tap, is drawn from its end
-  drop,         ///< one is not written
-  split,        ///< one of at least 0.2 em is lifted at 35 to 65 % of its length
-  join,         ///< the pen is not lifted between two neighbours
-  extra,        ///< a straight line of 0.2 to 0.5 em, anywhere in the square, in any direction, anywhere in the order
-  twice,        ///< one is written again at once, displaced by 3 % of the em; either may be told as extra
-  turned,       ///< one of at least 0.2 em is turned by a right angle about its centre
-  block,        ///< 2 or 3 strokes in a row are written earlier or later
-  turned_short  ///< one of 0.1 to 0.2 em is turned so: people's own directions differ by as much
+  swap,          ///< two strokes change their places in the order of writing
+  adjacent,      ///< two neighbours do
+  reverse,       ///< a pen-down whose chord is at least half of its length, and which is no tap, is drawn from its end
+  drop,          ///< one is not written
+  split,         ///< one of at least 0.2 em is lifted at 35 to 65 % of its length
+  join,          ///< the pen is not lifted between two neighbours
+  extra,         ///< a straight line of 0.2 to 0.5 em, anywhere in the square, in any direction, anywhere in the order
+  twice,         ///< one is written again at once, displaced by 3 % of the em; either may be told as extra
+  turned,        ///< one of at least 0.2 em is turned by a right angle about its centre
+  block,         ///< 2 or 3 strokes in a row are written earlier or later
+  turned_short,  ///< one of 0.1 to 0.2 em is turned so: people's own directions differ by as much
+  join_apart,    ///< the pen is not lifted from one to another that is not the next, and begins within 0.1 em of its end
+  split_three    ///< one of at least 0.3 em is lifted twice, at 28 to 38 and at 62 to 72 % of its length
 };
 
 /// What is then done to all pen-downs: about the centre of the square, or at random.
@@ -73,7 +75,8 @@ struct Corruption {
   bool is_random() const { return !is_clean() || deviation.is_random(); }
   /// The fault is one of strokes that can be of a class. Of two that are swapped it is one, and they are neighbours.
   bool has_classes() const {
-    return !is_clean() && fault != Fault::swap && fault != Fault::extra && fault != Fault::block;
+    return !is_clean() && fault != Fault::swap && fault != Fault::extra && fault != Fault::block &&
+           fault != Fault::join_apart;
   }
 };
 

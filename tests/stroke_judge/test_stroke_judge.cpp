@@ -68,6 +68,7 @@ MatchResult result_of(const Truth& truth) {
   MatchResult match;
   for (const Written& each : truth.written) {
     match.drawn.push_back({each.stroke, each.stroke_count, each.continues});
+    match.drawn.back().also = each.also;
   }
   for (const Due& due : truth.due()) {
     const bool extra = due.kind == StrokeRemarkKind::extra;
@@ -137,12 +138,13 @@ TEST_CASE("every corruption is the same with the same seed, and its truth has on
           for (int i = 0; i < each.stroke_count && !each.continues; ++i) {
             ++times[static_cast<std::size_t>(each.stroke + i)];
           }
+          if (each.also >= 0) ++times[static_cast<std::size_t>(each.also)];
         }
         CHECK(std::all_of(times.begin(), times.end(), [](int count) { return count == 1; }));
       }
     });
-    const Character& eternal = built_in_characters().at(U'永');
-    const RightPen pen{"copy", eternal, copy_of(eternal)};
+    const Character& country = built_in_characters().at(U'国');
+    const RightPen pen{"copy", country, copy_of(country)};
     const auto one = corrupt(pen, row, 7), other = corrupt(pen, row, 7), another = corrupt(pen, row, 8);
     REQUIRE(one.has_value());
     CHECK(one->paths == other->paths);
@@ -165,6 +167,15 @@ TEST_CASE("a dropped stroke is gone, a split one is whole together, a reversed o
     CHECK(first / whole >= 0.35);
     CHECK(first / whole <= 0.65);
     CHECK(corrupted.truths.front().written[at + 1].continues);
+  });
+  check_each("split-3", [](const RightPen& pen, const Corrupted& corrupted) {
+    CHECK(corrupted.paths.size() == pen.paths.size() + 2);
+    CHECK(length_of(corrupted.paths) == Approx(length_of(pen.paths)));
+    const std::size_t at = first_change(pen, corrupted);
+    const double whole = path_length(pen.paths[at]);
+    CHECK(whole >= 0.3);
+    for (std::size_t part = at; part < at + 3; ++part) CHECK(path_length(corrupted.paths[part]) >= 0.24 * whole);
+    CHECK(corrupted.truths.front().written[at + 2].continues);
   });
   check_each("reverse", [](const RightPen& pen, const Corrupted& corrupted) {
     const std::size_t at = first_change(pen, corrupted);
@@ -201,6 +212,18 @@ TEST_CASE("a joined stroke goes on to the next one, an extra one is straight and
     CHECK(corrupted.paths[at].back() == pen.paths[at + 1].back());
     const double between = (pen.paths[at + 1].front() - pen.paths[at].back()).norm();
     CHECK(length_of(corrupted.paths) == Approx(length_of(pen.paths) + between));
+  });
+  check_each("join-apart", [](const RightPen& pen, const Corrupted& corrupted) {
+    const auto& written = corrupted.truths.front().written;
+    const auto joins = [](const Written& each) { return each.also >= 0; };
+    const auto at = std::find_if(written.begin(), written.end(), joins);
+    REQUIRE(at != written.end());
+    const PenPath& joined = corrupted.paths[static_cast<std::size_t>(at - written.begin())];
+    const PenPath &one = pen.paths[static_cast<std::size_t>(at->stroke)],
+                  &other = pen.paths[static_cast<std::size_t>(at->also)];
+    CHECK(at->also != at->stroke + 1);
+    CHECK((joined.front() == one.front() && joined.back() == other.back()));
+    CHECK(path_length(joined) <= path_length(one) + path_length(other) + 0.1);
   });
   check_each("extra", [](const RightPen& pen, const Corrupted& corrupted) {
     const PenPath& extra = corrupted.paths[first_change(pen, corrupted)];
@@ -486,7 +509,8 @@ TEST_CASE("exact pens with faults and deviations are told exactly", "[judge]") {
                {"swap,jitter-1", 98.0},
                {"swap,displaced-5", 89.0},
                {"reverse,displaced-5", 97.0},
-               {"turned-short", 80.0}},
+               {"turned-short", 80.0},
+               {"split-3", 98.0}},
               300);
 }
 

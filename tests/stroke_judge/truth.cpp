@@ -27,13 +27,14 @@ std::vector<Due> told(const MatchResult& match) {
 bool same(const DrawnStroke& drawn, const Written& written) {
   if (written.stroke < 0) return drawn.stroke < 0;
   return drawn.stroke == written.stroke && drawn.stroke_count == written.stroke_count &&
-         drawn.continues == written.continues;
+         drawn.continues == written.continues && drawn.also == written.also;
 }
 
-std::string describe_strokes(int stroke, int count, bool continues) {
+std::string describe_strokes(int stroke, int count, int also, bool continues) {
   if (stroke < 0) return "x";
   std::string text = std::to_string(stroke + 1);
   for (int i = 1; i < count; ++i) text += "+" + std::to_string(stroke + i + 1);
+  if (also >= 0) text += "+" + std::to_string(also + 1);
   return text + (continues ? "~" : "");
 }
 
@@ -46,8 +47,9 @@ std::vector<Due> Truth::due() const {
   for (std::size_t path = 0; path < written.size(); ++path) {
     const Written& each = written[path];
     if (each.stroke < 0) all.push_back({StrokeRemarkKind::extra, static_cast<int>(path)});
-    if (each.stroke_count > 1) all.push_back({StrokeRemarkKind::joined, each.stroke});
-    if (each.continues) all.push_back({StrokeRemarkKind::broken, each.stroke});
+    if (each.stroke_count > 1 || each.also >= 0) all.push_back({StrokeRemarkKind::joined, each.stroke});
+    const bool is_last_part = path + 1 == written.size() || !written[path + 1].continues;
+    if (each.continues && is_last_part) all.push_back({StrokeRemarkKind::broken, each.stroke});
     if (each.backwards) all.push_back({StrokeRemarkKind::direction, each.stroke});
     if (each.turned) all.push_back({StrokeRemarkKind::shape, each.stroke});
   }
@@ -89,7 +91,7 @@ char32_t other_character(const MatchResult& match) {
 std::string describe(const Truth& truth) {
   std::string text;
   for (const Written& each : truth.written) {
-    text += (text.empty() ? "" : " ") + describe_strokes(each.stroke, each.stroke_count, each.continues);
+    text += (text.empty() ? "" : " ") + describe_strokes(each.stroke, each.stroke_count, each.also, each.continues);
   }
   for (const Due& due : truth.due()) text += ", " + describe(due);
   if (!truth.is_moved()) return text;
@@ -99,7 +101,7 @@ std::string describe(const Truth& truth) {
 std::string describe(const MatchResult& match) {
   std::string text;
   for (const DrawnStroke& each : match.drawn) {
-    text += (text.empty() ? "" : " ") + describe_strokes(each.stroke, each.stroke_count, each.continues);
+    text += (text.empty() ? "" : " ") + describe_strokes(each.stroke, each.stroke_count, each.also, each.continues);
   }
   for (const StrokeRemark& remark : match.remarks) {
     const bool is_other = remark.other_character != 0;

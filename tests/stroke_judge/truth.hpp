@@ -16,6 +16,7 @@ struct Written {
   bool continues = false;  ///< it goes on with the stroke that the pen-down before it began
   bool backwards = false;  ///< from the stroke's end
   bool turned = false;     ///< as another shape: turned by a right angle
+  int also = -1;           ///< a stroke that it wrote next without being the next one; -1: none
 };
 
 /// A remark that must be told: of a pen-down if it is extra, else of a stroke.

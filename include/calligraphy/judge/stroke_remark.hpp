@@ -14,7 +14,7 @@ enum class StrokeRemarkKind {
   direction,  ///< a stroke written backwards
   shape,      ///< a stroke drawn as another shape, or only a part of one, so that its direction is undetermined
   joined,     ///< strokes written without lifting the pen: connected writing, not a mistake of order
-  broken,     ///< a stroke written in two pen-downs
+  broken,     ///< a stroke written in two or three pen-downs
   missing,    ///< a stroke that was not written
   extra,      ///< a pen-down that matches no stroke of the character
   character,  ///< the writing is another character: then this is the only remark

@@ -38,9 +38,13 @@ double trust_in_direction(double length) {
 std::vector<DrawnLine> drawn_lines(std::span<const PenPath> paths) {
   std::vector<DrawnLine> lines;
   for (std::size_t path = 0; path < paths.size(); ++path) {
-    PenPath both = paths[path];
-    if (path + 1 < paths.size()) both.insert(both.end(), paths[path + 1].begin(), paths[path + 1].end());
-    lines.push_back({outline(paths[path]), paths[path].front(), paths[path].back(), outline(both)});
+    DrawnLine& drawn = lines.emplace_back();
+    drawn = {outline(paths[path]), paths[path].front(), paths[path].back(), {}};
+    PenPath all = paths[path];
+    for (std::size_t next = path + 1; next < std::min(path + max_broken, paths.size()); ++next) {
+      all.insert(all.end(), paths[next].begin(), paths[next].end());
+      drawn.with_next.push_back(outline(all));
+    }
   }
   return lines;
 }
@@ -51,17 +55,22 @@ StrokeCosts::StrokeCosts(const StrokeOutlines& strokes, std::span<const DrawnLin
     return Outline((line * fit.linear.transpose()).rowwise() + fit.offset.transpose());
   };
   for (const DrawnLine& path : drawn) {
-    const Outline& line = placed_.emplace_back(place(path.line));
-    placed_with_next_.push_back(place(path.with_next));
+    auto& lines = placed_.emplace_back();
+    const Outline& line = lines[0] = place(path.line);
+    for (std::size_t i = 0; i < path.with_next.size(); ++i) lines[i + 1] = place(path.with_next[i]);
     shapes_.push_back(centred(line));
     lengths_.push_back(length_of(line));
   }
   joined_.assign(drawn.size() * strokes.count() * max_joined, impossible_pair);
-  broken_.assign(drawn.size() * strokes.count(), impossible_pair);
+  broken_.assign(drawn.size() * strokes.count() * max_broken, impossible_pair);
   for (std::size_t path = 0; path < drawn.size(); ++path) compare_singles(path);
   for (std::size_t path = 0; path < drawn.size(); ++path) {
     compare_joined(path);
-    if (path + 1 < drawn.size()) compare_broken(path, (fit.linear * (drawn[path + 1].begin - drawn[path].end)).norm());
+    double gap = 0.0;
+    for (std::size_t next = path + 1; next < std::min(path + max_broken, drawn.size()); ++next) {
+      gap = std::max(gap, (fit.linear * (drawn[next].begin - drawn[next - 1].end)).norm());
+      compare_broken(path, next - path + 1, gap);
+    }
   }
 }
 
@@ -79,11 +88,11 @@ void StrokeCosts::compare_singles(std::size_t path) {
   for (std::size_t stroke = 0; stroke < strokes(); ++stroke) {
     const StrokeRun& run = strokes_->run(stroke, 1);
     if (!is_tap(path)) {
-      singles_.push_back(compare(placed_[path], shapes_[path], run));
+      singles_.push_back(compare(placed(path), shapes_[path], run));
       continue;
     }
     const bool is_dot = run.length <= judge_constants.max_dot_length;
-    const double cost = is_dot ? mean_distance(placed_[path], run.line) : impossible;
+    const double cost = is_dot ? mean_distance(placed(path), run.line) : impossible;
     singles_.push_back({cost, 1.0, 1.0, false});
     ++comparisons_;
   }
@@ -98,22 +107,25 @@ void StrokeCosts::compare_joined(std::size_t path) {
       const StrokeRun& run = strokes_->run(first, count);
       alone = std::min(alone, single(path, first + count - 1).cost);
       if (lengths_[path] < judge_constants.min_joined_length * run.line_length) continue;
-      const PairCost pair = compare(placed_[path], shapes_[path], run);
+      const PairCost pair = compare(placed(path), shapes_[path], run);
       if (pair.cost >= std::min(judge_constants.max_joined_or_broken_cost, share * alone)) continue;
       joined_[(path * strokes() + first) * max_joined + count - 1] = pair;
     }
   }
 }
 
-void StrokeCosts::compare_broken(std::size_t path, double gap) {
-  if (is_tap(path) || is_tap(path + 1)) return;
-  const Outline &both = placed_with_next_[path], shape = centred(both);
+void StrokeCosts::compare_broken(std::size_t path, std::size_t count, double gap) {
+  for (std::size_t part = path; part < path + count; ++part) {
+    if (is_tap(part)) return;
+  }
+  const Outline &all = placed(path, count), shape = centred(all);
   for (std::size_t stroke = 0; stroke < strokes(); ++stroke) {
     if (gap > judge_constants.max_broken_gap * strokes_->length(stroke)) continue;
-    const PairCost pair = compare(both, shape, strokes_->run(stroke, 1));
-    const double alone = std::min(single(path, stroke).cost, single(path + 1, stroke).cost);
+    const PairCost pair = compare(all, shape, strokes_->run(stroke, 1));
+    double alone = never;
+    for (std::size_t part = path; part < path + count; ++part) alone = std::min(alone, single(part, stroke).cost);
     const double most = std::min(judge_constants.max_joined_or_broken_cost, alone + judge_constants.broken_doubt);
-    if (pair.cost < most) broken_[path * strokes() + stroke] = pair;
+    if (pair.cost < most) broken_[(path * strokes() + stroke) * max_broken + count - 1] = pair;
   }
 }
 

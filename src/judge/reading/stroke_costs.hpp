@@ -15,6 +15,9 @@ namespace calligraphy {
 /// The most strokes that are read as written without lifting the pen.
 inline constexpr std::size_t max_joined = 6;
 
+/// The most pen-downs that are read as one stroke.
+inline constexpr std::size_t max_broken = 3;
+
 /// What a pen draws when it writes a run of strokes without being lifted: the strokes, joined by straight lines.
 struct StrokeRun {
   Outline line;
@@ -40,7 +43,7 @@ class StrokeOutlines {
 struct DrawnLine {
   Outline line;
   Point begin, end;
-  Outline with_next;  ///< it and the next pen-down as one line, if there is a next one
+  std::vector<Outline> with_next;  ///< it and the next pen-downs as one line: two, or three, as far as there are any
 };
 
 std::vector<DrawnLine> drawn_lines(std::span<const PenPath> paths);
@@ -60,9 +63,8 @@ class StrokeCosts {
   std::size_t paths() const { return placed_.size(); }
   std::size_t strokes() const { return strokes_->count(); }
   const AffineMap& fit() const { return fit_; }
-  /// The aligned outline of a pen-down, and of it and the next one as one line.
-  const Outline& placed(std::size_t path) const { return placed_[path]; }
-  const Outline& placed_with_next(std::size_t path) const { return placed_with_next_[path]; }
+  /// The aligned outline of a pen-down, or of `count` pen-downs as one line.
+  const Outline& placed(std::size_t path, std::size_t count = 1) const { return placed_[path][count - 1]; }
   double length(std::size_t path) const { return lengths_[path]; }
   bool is_tap(std::size_t path) const { return lengths_[path] < tap_length; }
 
@@ -72,9 +74,11 @@ class StrokeCosts {
   const PairCost& joined(std::size_t path, std::size_t first, std::size_t count) const {
     return joined_[(path * strokes() + first) * max_joined + count - 1];
   }
-  /// A pen-down and the next one as one stroke: possible if the second continues where the first ended, and both
-  /// together resemble it hardly less than either alone.
-  const PairCost& broken(std::size_t path, std::size_t stroke) const { return broken_[path * strokes() + stroke]; }
+  /// `count` pen-downs in a row, at least 2, as one stroke: possible if each continues where the one before ended, and
+  /// all together resemble it hardly less than any alone.
+  const PairCost& broken(std::size_t path, std::size_t count, std::size_t stroke) const {
+    return broken_[(path * strokes() + stroke) * max_broken + count - 1];
+  }
 
   /// Number of comparisons of outlines so far.
   int comparisons() const { return comparisons_; }
@@ -83,15 +87,16 @@ class StrokeCosts {
   PairCost compare(const Outline& line, const Outline& shape, const StrokeRun& run);
   void compare_singles(std::size_t path);
   void compare_joined(std::size_t path);
-  void compare_broken(std::size_t path, double gap);
+  void compare_broken(std::size_t path, std::size_t count, double gap);
 
   const StrokeOutlines* strokes_;
   AffineMap fit_;
-  std::vector<Outline> placed_, shapes_, placed_with_next_;
+  std::vector<std::array<Outline, max_broken>> placed_;  ///< by pen-down, then by the number of those in one line
+  std::vector<Outline> shapes_;
   std::vector<double> lengths_;    ///< lengths of the pen-downs [em]
   std::vector<PairCost> singles_;  ///< by pen-down, then by stroke
   std::vector<PairCost> joined_;   ///< by pen-down, then by the first stroke, then by their number
-  std::vector<PairCost> broken_;   ///< by the first of two pen-downs, then by stroke
+  std::vector<PairCost> broken_;   ///< by the first pen-down, then by stroke, then by the number of pen-downs
   int comparisons_ = 0;
 };
 

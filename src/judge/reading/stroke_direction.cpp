@@ -15,8 +15,8 @@ constexpr double almost = 0.999;  // evidence just short of a remark
 }  // namespace
 
 double length_share(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
-  double length = reading.costs->length(step.path);
-  if (step.paths > 1) length += reading.costs->length(step.path + 1);
+  double length = 0.0;
+  for (std::size_t path = step.path; path < step.path + step.paths; ++path) length += reading.costs->length(path);
   const double whole = strokes.run(step.stroke, step.strokes).line_length;
   return whole > 0.0 ? length / whole : 1.0;
 }

@@ -58,7 +58,10 @@ StrokeReading read_in_this_order(Costs costs, std::span<const std::size_t> order
       for (std::size_t more = 2; more <= std::min(max_joined, strokes - stroke); ++more) {
         reach(1, more, costs->joined(path, stroke, more).cost + join_price * static_cast<double>(more - 1));
       }
-      if (i + 1 < paths && order[i + 1] == path + 1) reach(2, 1, costs->broken(path, stroke).cost + break_price);
+      for (std::size_t more = 2; more <= std::min(max_broken, paths - i); ++more) {
+        if (order[i + more - 1] != path + more - 1) break;
+        reach(more, 1, costs->broken(path, more, stroke).cost + break_price * static_cast<double>(more - 1));
+      }
     }
   }
   StrokeReading reading{{}, best[paths][strokes].cost, std::move(costs)};
@@ -411,7 +414,7 @@ class Reader {
 }  // namespace
 
 const PairCost& StrokeReading::pair(const ReadingStep& step) const {
-  if (step.paths > 1) return costs->broken(step.path, step.stroke);
+  if (step.paths > 1) return costs->broken(step.path, step.paths, step.stroke);
   if (step.strokes > 1) return costs->joined(step.path, step.stroke, step.strokes);
   return costs->single(step.path, step.stroke);
 }

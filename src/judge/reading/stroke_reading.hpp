@@ -14,7 +14,7 @@
 namespace calligraphy {
 
 /// Pen-downs and the strokes they are read as. No pen-down: a missing stroke; no stroke: an extra pen-down;
-/// several strokes: joined strokes; two pen-downs: a broken stroke.
+/// several strokes: joined strokes; several pen-downs: a broken stroke.
 struct ReadingStep {
   std::size_t path = 0, paths = 0;
   std::size_t stroke = 0, strokes = 0;

@@ -95,6 +95,8 @@ class Sentence {
         const bool is_straight = remark_.stroke_count == 1 && is_nearly_straight(remark_.stroke);
         return say(std::string(key) + (is_straight ? ".straight" : ""));
       }
+      case StrokeRemarkKind::broken:
+        return say(remark_.path_count > 2 ? "broken.three" : "broken");
       case StrokeRemarkKind::missing:
         return say(place_in_character() == middle_of_box ? "missing.middle" : "missing");
       case StrokeRemarkKind::extra:

@@ -78,11 +78,12 @@ class Remarks {
     for (const MovedStrokes& moved : order_.moved) {
       if (moved.path == path) remark_on_moved(moved);
     }
-    const bool is_broken = path + 1 < static_cast<int>(drawn_.size()) && at(path + 1).continues;
+    int parts = 1;
+    while (path + parts < static_cast<int>(drawn_.size()) && at(path + parts).continues) ++parts;
     const auto remark_on_stroke = [&](StrokeRemarkKind kind, double evidence) {
       add({.kind = kind,
            .path = path,
-           .path_count = is_broken ? 2 : 1,
+           .path_count = parts,
            .stroke = drawn.stroke,
            .stroke_count = drawn.stroke_count,
            .place = place_of_path(path),
@@ -90,8 +91,9 @@ class Remarks {
            .length = drawn.length,
            .direction = drawn.direction});
     };
-    if (is_broken) {
-      remark_on_stroke(StrokeRemarkKind::broken, std::max(1.0, shorter_share(path) / judge_constants.sure_part));
+    if (parts > 1) {
+      remark_on_stroke(StrokeRemarkKind::broken,
+                       std::max(1.0, share_beside_longest(path, parts) / judge_constants.sure_part));
     }
     if (drawn.stroke_count > 1) remark_on_stroke(StrokeRemarkKind::joined, judge_constants.joined_evidence * drawn.stroke_count);
     if (drawn.direction == WritingDirection::backwards) {
@@ -169,11 +171,15 @@ class Remarks {
     return result;
   }
 
-  /// Share of the shorter part of a stroke that a pen-down and the next one wrote.
-  double shorter_share(int path) const {
-    const double one = path_length(paths_[static_cast<std::size_t>(path)]);
-    const double other = path_length(paths_[static_cast<std::size_t>(path) + 1]);
-    return std::min(one, other) / std::max(one + other, 1e-300);
+  /// Share of all parts but the longest, of a stroke that so many pen-downs wrote.
+  double share_beside_longest(int path, int parts) const {
+    double longest = 0.0, all = 0.0;
+    for (int part = path; part < path + parts; ++part) {
+      const double length = path_length(paths_[static_cast<std::size_t>(part)]);
+      longest = std::max(longest, length);
+      all += length;
+    }
+    return (all - longest) / std::max(all, 1e-300);
   }
 
   std::vector<Point> line_of(int stroke) const { return middle_line(strokes_[static_cast<std::size_t>(stroke)]); }
