@@ -69,6 +69,7 @@ struct JudgeConstants {
   double lookalike_distance = 0.06;    ///< distance below which characters hardly differ: 125 of 4.3 million pairs [em]
   double drawn_alike_distance = 0.01;  ///< distance below which characters do not differ: two of those pairs [em]
   double named_distance = 0.095;  ///< greatest distance from another character that is named: own ones of people [em]
+  double twin_distance = 0.14;    ///< distance below which one fault of form may make one character of another [em]
   double twin_share = 0.8;        ///< greatest distance from a lookalike, over that from the character asked for [1]
   double unlike_price = 0.085;         ///< price per pen-down from which the best form is unlike; on 46 strangers [em]
 
@@ -77,6 +78,7 @@ struct JudgeConstants {
   double min_upright_residual = 0.18;  ///< least residual of the same as if it were upright [em]
   double upright_factor = 1.5;         ///< least ratio of the two [1]
   double free_factor = 1.25;           ///< least ratio if strokes may be in any order and direction [1]
+  double free_margin = 0.03;           ///< least difference from that residual [em]
   double max_part_residual = 0.09;     ///< greatest residual of parts in each other's place [em]
   double part_factor = 1.6;            ///< least ratio of the residual of the whole to theirs [1]
   double max_one_of_several = 0.19;    ///< greatest residual of a character beside which there is more [em]

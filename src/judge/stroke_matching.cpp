@@ -205,7 +205,7 @@ bool is_unreadable(const FormMatch& matched) {
       farness.far >= judge_constants.unreadable_share) {
     return true;
   }
-  return farness.distance > judge_constants.max_unremarked_distance && matched.mistakes + matched.form_mistakes == 0;
+  return farness.count > 1.0 && farness.distance > judge_constants.max_unremarked_distance && matched.mistakes + matched.form_mistakes == 0;
 }
 
 /// Whether every pen-down wrote a stroke, or bounced: then there is nothing beside the character.
@@ -218,7 +218,9 @@ bool make_other(std::vector<StrokeRemark>& form, char32_t code) {
   const auto is_fault = [](const StrokeRemark& remark) { return remark.evidence >= sure_evidence; };
   if (std::count_if(form.begin(), form.end(), is_fault) != 1) return false;
   StrokeRemark& fault = *std::find_if(form.begin(), form.end(), is_fault);
-  if (fault.other_stroke < 0) return false;
+  const bool can_make = fault.kind == StrokeRemarkKind::crossing || fault.kind == StrokeRemarkKind::no_crossing ||
+                        fault.kind == StrokeRemarkKind::proportion;
+  if (!can_make) return false;
   fault.other_character = code;
   fault.evidence = std::numeric_limits<double>::infinity();
   return true;
@@ -323,7 +325,7 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
     return result;
   }
   std::erase_if(chosen.form, [&](const StrokeRemark& remark) { return remark.evidence < tolerances.evidence; });
-  const bool is_makeable = other && chosen.mistakes == 0 && best == best_of_same_count;
+  const bool is_makeable = other && other->is_twin && chosen.mistakes == 0 && best == best_of_same_count;
   if (other && ((is_makeable && make_other(chosen.form, other->code)) || !other->is_clear)) other.reset();
   result.remarks = remarks_on(accepted[best], paths, result.drawn, result.fit,
                               {chosen.reading.order_evidence, tolerances.evidence}, other);

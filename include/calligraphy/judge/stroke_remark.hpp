@@ -89,7 +89,9 @@ struct StrokeRemark {
   /// By how much it is off, of form: how far a stroke goes beyond another, ends before it, or is out of place; the bow
   /// that it has or lacks; NaN where that cannot be measured [em].
   double amount = std::numeric_limits<double>::quiet_NaN();
-  Point offset = Point::Zero();  ///< of a stroke out of place: from its place to where it is [em]
+  /// Of a stroke out of place: from its place to where it is; of an end that crosses, does not cross or does not reach
+  /// another stroke: from that stroke to the end [em].
+  Point offset = Point::Zero();
   WritingOrientation orientation = WritingOrientation::upright;  ///< how the writing lies
 };
 

@@ -23,6 +23,7 @@ constexpr double closer = 0.6;                   // gap over that of the charact
 constexpr double least_bow = 0.05, kept_bend = 0.3;   // bow of a bent stroke [em], and share of it that is enough [1]
 constexpr double least_lacking = 0.03;                // bow of a stroke that counts as straight with the others [em]
 constexpr double most_bent = 0.2, free_bow = 0.08;    // bows over lengths [1]
+constexpr double ring = 0.3;            // distance of the ends of a ring, over its length [1]
 constexpr double least_left_out = 0.1;  // length of a stroke of which only a part was drawn [em]
 constexpr double one_sided = 0.4;  // mean distance from the chord, over the largest, of a bend rather than waves [1]
 constexpr double shortest_shaped = 0.12, shortest_drawn = 0.1;  // strokes that have a shape [em]
@@ -33,10 +34,13 @@ constexpr double least_longer = 0.1;                                         // 
 
 double share_left(const Beside& now, double gap) { return gap / std::max(now.gap, 1e-6); }
 
+/// Whether a stroke ends about where it begins, as 〇 does: then it has no bow.
+bool is_ring(const FormLine& stroke) { return stroke.chord().norm() < ring * stroke.length(); }
+
 /// The bow of the character's stroke that the drawn one lacks [em].
 double lacking_bow(const FormLine& drawn, const FormLine& stroke) {
   const double wanted = bow(stroke);
-  if (std::abs(wanted) < least_bow) return 0.0;
+  if (std::abs(wanted) < least_bow || is_ring(stroke)) return 0.0;
   const double share = bow(drawn) / std::max(drawn.length(), 1e-6) / (wanted / std::max(stroke.length(), 1e-6));
   return share >= kept_bend ? 0.0 : (1.0 - std::max(share, 0.0)) * std::abs(wanted);
 }
@@ -50,6 +54,7 @@ struct Bend {
 /// Evidence that a stroke is bent or wavy where it should not be.
 Bend bend(const FormLine& drawn, const FormLine& stroke) {
   const double length = drawn.length();
+  if (is_ring(stroke)) return {};
   const double has = bow(drawn) / std::max(length, 1e-6), wanted = bow(stroke) / std::max(stroke.length(), 1e-6);
   if (std::abs(wanted) >= most_bent) return {};
   const bool is_bowed = std::abs(wanted) >= least_bow;
@@ -110,7 +115,12 @@ class FormFaults {
   double limit(double em, double noise) const { return std::max(em, noise * noise_); }
 
   void add(FormFault fault) {
-    if (fault.evidence >= least_) faults_.push_back(std::move(fault));
+    if (fault.evidence < least_) return;
+    if (fault.other && fault.end != StrokeEnd::none) {
+      const FormLine& other = body(*fault.other);
+      fault.offset = fault.place - nearest_place(fault.place, other).point;
+    }
+    faults_.push_back(std::move(fault));
   }
 
   const std::vector<DeepCrossing>& crossings_of(std::size_t one, std::size_t other) const {

@@ -81,7 +81,7 @@ std::vector<Crossing> crossings(const FormLine& one, const FormLine& other) {
 }
 
 NearestPlace nearest_place(const Point& point, const FormLine& line) {
-  NearestPlace nearest{std::numeric_limits<double>::infinity(), 0.0, 0.0, 0};
+  NearestPlace nearest{std::numeric_limits<double>::infinity(), 0.0, 0.0, line.points.front()};
   for (std::size_t i = 0; i + 1 < form_points; ++i) {
     const Point step = line.points[i + 1] - line.points[i], from = point - line.points[i];
     const double t = std::clamp(from.dot(step) / std::max(step.squaredNorm(), 1e-18), 0.0, 1.0);
@@ -90,7 +90,7 @@ NearestPlace nearest_place(const Point& point, const FormLine& line) {
     if (distance >= nearest.distance) continue;
     const double area = cross_product(step, off);
     nearest = {distance, line.along[i] + t * (line.along[i + 1] - line.along[i]),
-               area > 0.0 ? 1.0 : (area < 0.0 ? -1.0 : 0.0), i};
+               area > 0.0 ? 1.0 : (area < 0.0 ? -1.0 : 0.0), line.points[i] + t * step};
   }
   nearest.distance = std::sqrt(nearest.distance);
   return nearest;

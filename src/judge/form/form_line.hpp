@@ -46,7 +46,7 @@ struct NearestPlace {
   double distance;       ///< [em]
   double along;          ///< length along the line [em]
   double side;           ///< 1 to the left of the line, -1 to its right, 0 on it
-  std::size_t segment;   ///< from the point with this index to the next one
+  Point point;           ///< the place
 };
 
 NearestPlace nearest_place(const Point& point, const FormLine& line);

@@ -93,7 +93,9 @@ std::optional<WholeFault> orientation_of(std::span<const FormLine> strokes, std:
     return std::nullopt;
   }
   // What strokes in another order or direction explain as well is told as that.
-  if (free_residual(drawn, wanted) <= judge_constants.free_factor * least) return std::nullopt;
+  if (free_residual(drawn, wanted) <= std::max(judge_constants.free_factor * least, least + judge_constants.free_margin)) {
+    return std::nullopt;
+  }
   return WholeFault{StrokeRemarkKind::orientation, static_cast<WritingOrientation>(best)};
 }
 

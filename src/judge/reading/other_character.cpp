@@ -77,7 +77,7 @@ std::optional<OtherCharacter> other_character(const CharacterFeatures& character
   const double between = apart(asked, other);
   if (between < judge_constants.drawn_alike_distance || as_it_is.other >= as_it_is.asked) return std::nullopt;
   OtherCharacter found{nearest.code, is_clear(least.asked, as_it_is.asked, between),
-                       between < judge_constants.lookalike_distance};
+                       between < judge_constants.twin_distance, between < judge_constants.lookalike_distance};
   if (other_as_read.size() > 0 && !is_clear(least.asked_as_read, as_it_is.asked_as_read, apart(asked, other_as_read))) {
     found.is_clear = false;
   }

@@ -13,6 +13,7 @@ namespace calligraphy {
 struct OtherCharacter {
   char32_t code = 0;
   bool is_clear = true;       ///< clearly nearer; otherwise only a fault of form can show that it was written
+  bool is_twin = false;       ///< the two differ so little that one fault of form may make one of the other
   bool is_lookalike = false;  ///< the two hardly differ
 };
 

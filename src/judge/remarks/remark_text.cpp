@@ -252,6 +252,7 @@ class Sentence {
 
   /// The way in which a stroke, or its end, is out of place.
   Point way_off() const {
+    if (!remark_.offset.isZero()) return remark_.offset;
     if (remark_.kind == StrokeRemarkKind::crossing) return way_of_end();
     if (remark_.kind == StrokeRemarkKind::no_crossing) return -way_of_end();
     return remark_.offset;
