@@ -107,7 +107,6 @@ struct JudgeConstants {
   double overlap_limit = 0.06;             ///< gap between strokes that is lacking [em]
   double overlap_noise = 1.3;              ///< the same [1]
   double overlap_share = 0.45;             ///< share of the gap between strokes that is left [1]
-  double near_share = 0.33;                ///< the same of the distance of short strokes [1]
   double side_limit = 0.2;                 ///< gap between strokes on the one side and the other, together [em]
   double side_noise = 4.0;                 ///< the same [1]
   double straight_limit = 0.13;            ///< bow that a stroke lacks, or root of the sum of squares of all [em]

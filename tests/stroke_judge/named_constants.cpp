@@ -101,7 +101,6 @@ constexpr auto named_constants = std::to_array<NamedConstant>({
     {"overlap_limit", &JudgeConstants::overlap_limit},
     {"overlap_noise", &JudgeConstants::overlap_noise},
     {"overlap_share", &JudgeConstants::overlap_share},
-    {"near_share", &JudgeConstants::near_share},
     {"side_limit", &JudgeConstants::side_limit},
     {"side_noise", &JudgeConstants::side_noise},
     {"straight_limit", &JudgeConstants::straight_limit},

@@ -12,9 +12,8 @@ using detail::judge_constants;
 
 constexpr double within_line = 0.02;  // share of a line at either end in which a foot does not count as beside it [1]
 constexpr std::size_t least_points_beside = 2;
-// Of strokes that count in relations, and of those that are near each other or parallel [em, or 1].
+// Of strokes that count in relations, and of those that are parallel [em, or 1].
 constexpr double shortest_related = 0.08, shortest_with_hook = 0.15;
-constexpr double least_near = 0.08, most_near = 0.3, longest_near = 0.4, most_near_bow = 0.1;
 constexpr double least_parallel = 0.95, most_parallel_bow = 0.08, least_difference = 0.1, farthest_parallel = 0.5, farthest_related = 0.6;
 constexpr double clearly_across = 0.7;  // cosine of the chords of straight strokes, below which they lie side by side nowhere
 constexpr double least_share_beside = 0.35, least_share_parallel = 0.3;
@@ -95,11 +94,6 @@ CharacterForm::CharacterForm(std::span<const std::vector<Point>> lines) {
         meetings.push_back({i, end, j, foot.distance, foot.along, other.length() - foot.along});
       }
       if (!crossings_of(std::min(i, j), std::max(i, j)).empty() || one.length() < shortest_related) continue;
-      const double apart = (one.centre() - other.centre()).norm();
-      if (i < j && apart >= least_near && apart <= most_near && std::abs(bows[i]) + std::abs(bows[j]) < most_near_bow &&
-          std::max(one.length(), other.length()) < longest_near) {
-        near.push_back({i, j, apart});
-      }
       const Point u = one.chord(), v = other.chord();
       const bool are_straight = std::max(std::abs(bows[i]), std::abs(bows[j])) < most_parallel_bow;
       if (are_straight && std::abs(u.dot(v)) < clearly_across * u.norm() * v.norm()) continue;

@@ -52,10 +52,10 @@ struct Neighbours {
   Beside beside;
 };
 
-/// Two strokes, in the order of writing, that do not cross.
-struct StrokePair {
+/// Two straight strokes side by side, of different lengths, in the order of writing.
+struct Parallels {
   std::size_t stroke, other;
-  double difference;  ///< of near ones: distance of their centres; of parallels: by how much the first is longer [em]
+  double longer_by;  ///< by how much the first is longer [em]
 };
 
 /// The form of a character.
@@ -73,8 +73,7 @@ struct CharacterForm {
   std::vector<std::vector<DeepCrossing>> crossings;  ///< of pairs, the first before the second in the order of writing
   std::vector<Meeting> meetings;
   std::vector<Neighbours> neighbours;
-  std::vector<StrokePair> near;       ///< short straight strokes close to each other
-  std::vector<StrokePair> parallels;  ///< straight strokes of different lengths
+  std::vector<Parallels> parallels;
 };
 
 /// The end of a line.

@@ -238,13 +238,6 @@ class FormFaults {
              .place = body(each.stroke).centre()});
       }
     }
-    for (const StrokePair& each : form_.near) {
-      if (!has(each.stroke) || !has(each.other) || !crossings_of(each.stroke, each.other).empty()) continue;
-      const double apart = (body(each.stroke).centre() - body(each.other).centre()).norm();
-      if (apart >= closer * each.difference) continue;
-      add_overlap(each.stroke, each.other, each.difference - apart,
-                  judge_constants.near_share * each.difference / std::max(apart, 1e-6));
-    }
   }
 
   void add_overlap(std::size_t stroke, std::size_t other, double closer_by, double evidence_of_share) {
@@ -350,12 +343,12 @@ class FormFaults {
   }
 
   void find_proportions() {
-    for (const StrokePair& each : form_.parallels) {
+    for (const Parallels& each : form_.parallels) {
       if (!has(each.stroke) || !has(each.other)) continue;
       const double longer_by = body(each.stroke).length() - body(each.other).length();
-      if (longer_by * each.difference >= 0.0) continue;
-      const double both = std::abs(longer_by) + std::abs(each.difference);
-      const auto [longer, shorter] = each.difference > 0.0 ? std::pair(each.stroke, each.other)
+      if (longer_by * each.longer_by >= 0.0) continue;
+      const double both = std::abs(longer_by) + std::abs(each.longer_by);
+      const auto [longer, shorter] = each.longer_by > 0.0 ? std::pair(each.stroke, each.other)
                                                            : std::pair(each.other, each.stroke);
       add({.kind = FaultKind::proportion,
            .stroke = longer,
