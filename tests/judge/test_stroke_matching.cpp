@@ -171,7 +171,7 @@ TEST_CASE("a turned or slanted hand, a tremor and displaced strokes are no mista
       {"turned to the right", left.inverse().toRotationMatrix()}};
   Sequence random(19);
   const auto check = [](const Character& character, const std::vector<PenPath>& paths, const std::string& hand) {
-    const MatchResult match = match_strokes(character, paths);
+    const MatchResult match = match_strokes(character, paths, {.form = hand != "displaced"});
     CAPTURE(encode_utf8(character.code), hand, told(match));
     CHECK(match.remarks.empty());
     double distance = 0.0;
@@ -898,14 +898,14 @@ TEST_CASE("on a corpus of people's writing the result agrees with visual inspect
   // By visual inspection of each picture; 21 of the 39 characters have no template.
   const std::map<std::string, std::vector<std::string>> seen = {
       {"冘", {}}, {"夌", {}},
-      {"犮", {}}, {"疌", {}},
+      {"犮", {}}, {"疌", {"crossing 2"}},          // its second stroke ends at the fourth, as in Taiwan
       {"肙", {}}, {"辯", {}},
       {"雚", {}}, {"禸", {"joined 3"}},            // its third and fourth stroke in one pen-down
       {"卄", {}}, {"卌", {"missing 3"}},           // three verticals instead of four, evenly spaced: any of them
       {"卬", {}}, {"甪", {"missing 6"}},           // without the vertical in the middle
       {"內", {}}, {"戶", {"shape 1", "order 4"}},  // a pie in place of the dot, and the long pie before the box
       {"匭", {}}, {"匽", {}},
-      {"囪", {}}, {"圇", {}},
+      {"囪", {"wavy 5"}}, {"圇", {}},              // with a corner in its fifth stroke
   };
   int compared = 0;
   for (const PenTrace& trace : calligraphy_test::traces_of_people()) {

@@ -24,7 +24,7 @@ OtherOutcome judge(const OtherCase& each, const JudgeTolerances& tolerances, con
   const MatchResult match = match_strokes(each.asked_for, each.pen->paths, tolerances, &index);
   OtherOutcome outcome{false, other_character(match), describe(match)};
   if (outcome.named == 0) return outcome;
-  if (match.count(StrokeRemarkKind::character) == 1) {
+  if (match.count(StrokeRemarkKind::lookalike) == 0) {
     outcome.exact = match.remarks.size() == 1;
   } else {
     outcome.exact = apart(character_feature(each.pen->character), character_feature(each.asked_for)) < lookalike;

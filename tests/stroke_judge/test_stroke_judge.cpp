@@ -410,7 +410,7 @@ TEST_CASE("every pen of a twin meets every form of the other, and a note of a lo
   const Twins twins(U'土', U'士');
   const Character earth = cross_on_a_line(twins.first, 0.45);
   const std::vector<RightPen> pens(2, {"copy", earth, copy_of(earth)});
-  for (const auto& [upper, told] : {std::pair{0.75, "character 土"}, {0.5, "lookalike 土"}}) {
+  for (const auto& [upper, told] : {std::pair{0.75, "proportion 土"}, {0.5, "lookalike 土"}}) {
     const CharacterSet scholar(CharacterList{{}, {cross_on_a_line(twins.second, upper)}});
     const CharacterSet layers[] = {CharacterSet(CharacterList{{}, {earth}}), scholar, scholar};
     const CharacterSet set = CharacterSet::layered(layers);
