@@ -137,6 +137,7 @@ Json json_of(const Replayed& trace) {
   for (const DrawnStroke& each : trace.match.drawn) {
     Json strokes = Json::array();
     for (int i = 0; i < each.stroke_count; ++i) strokes.push_back(each.stroke + i + 1);
+    if (each.also >= 0) strokes.push_back(each.also + 1);
     drawn.push_back({{"strokes", strokes},
                      {"in_turn", each.in_turn},
                      {"course", to_string(each.direction)},

@@ -93,7 +93,9 @@ calligraphy_status calligraphy_match_drawn(const calligraphy_match* match, int32
                   .direction = static_cast<std::int32_t>(found.direction),
                   .attempt = found.attempt,
                   .length = found.length,
-                  .distance = found.distance});
+                  .distance = found.distance,
+                  .also = found.also,
+                  .reserved = 0});
   });
 }
 

@@ -18,6 +18,8 @@ inline constexpr std::size_t first_size = sizeof(Struct);
 template <>
 inline constexpr std::size_t first_size<calligraphy_device_state> = 112;
 template <>
+inline constexpr std::size_t first_size<calligraphy_drawn_stroke> = 48;
+template <>
 inline constexpr std::size_t first_size<calligraphy_remark> = 72;
 
 /// No struct of any version is larger: a size above this was never set.

@@ -31,6 +31,9 @@ struct JudgeConstants {
   double min_joined_length = 0.68;          ///< least length of a pen-down, over that of the strokes as one line [1]
   double max_joined_share = 0.75;           ///< limit on the cost of joined strokes, over that of the best alone [1]
   double max_joined_share_of_few = 0.9;     ///< max_joined_share where there are fewer pen-downs than strokes [1]
+  double max_apart_gap = 0.25;              ///< greatest way between strokes joined out of turn, and to their ends [em]
+  double max_apart_share = 0.75;            ///< max_joined_share of strokes joined out of turn [1]
+  double min_apart_saving = 0.13;           ///< least saving for which strokes are believed to be joined so [em]
   double max_broken_gap = 0.25;             ///< greatest gap between the parts of a broken stroke, over its length [1]
   double broken_doubt = 0.04;               ///< margin by which one of the parts alone may fit better [em]
 

@@ -51,7 +51,7 @@ std::optional<std::size_t> correction_beside(const StrokeReading& reading, std::
 /// attempt is extra.
 void prefer_corrections(StrokeReading& reading) {
   for (ReadingStep& wrong : reading.steps) {
-    if (wrong.paths != 1 || wrong.strokes != 1) continue;
+    if (wrong.paths != 1 || wrong.strokes != 1 || wrong.also) continue;
     if (!reading.costs->single(wrong.path, wrong.stroke).backwards) continue;
     const std::optional<std::size_t> correction = correction_beside(reading, wrong.path, wrong.stroke);
     if (!correction) continue;
@@ -63,21 +63,20 @@ void prefer_corrections(StrokeReading& reading) {
   }
 }
 
-/// Mean distance of the pen-downs of a step from its strokes, once both have the same centre.
-double shape_distance(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
-  const StrokeCosts& costs = *reading.costs;
-  const Outline& line = strokes.run(step.stroke, step.strokes).line;
-  const Outline wanted = reading.pair(step).backwards ? reversed(line) : line;
-  const Outline& drawn = costs.placed(step.path, step.paths);
-  return mean_distance(drawn.rowwise() - drawn.colwise().mean(), wanted.rowwise() - wanted.colwise().mean());
-}
+/// What the pen-downs of a step drew, and what its strokes wanted; of all parts of a broken stroke together.
+struct Compared {
+  Outline drawn, wanted;
 
-/// Mean distance of the pen-downs of a step from its strokes; of all parts of a broken stroke together.
-double distance_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
-  const StrokeCosts& costs = *reading.costs;
-  const Outline& line = strokes.run(step.stroke, step.strokes).line;
-  const Outline wanted = reading.pair(step).backwards ? reversed(line) : line;
-  return mean_distance(costs.placed(step.path, step.paths), wanted);
+  double distance() const { return mean_distance(drawn, wanted); }
+  /// The mean distance once both have the same centre.
+  double distance_of_shapes() const {
+    return mean_distance(drawn.rowwise() - drawn.colwise().mean(), wanted.rowwise() - wanted.colwise().mean());
+  }
+};
+
+Compared compared(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
+  const Outline line = run_of(step, strokes).line;
+  return {reading.costs->placed(step.path, step.paths), reading.pair(step).backwards ? reversed(line) : line};
 }
 
 /// Finds what a pen-down that wrote no stroke attempted: the stroke it resembles most among those along or against
@@ -138,11 +137,12 @@ FormMatch match_form(const Character& character, std::span<const PenPath> paths,
         drawn.stroke = static_cast<int>(step.stroke);
         drawn.stroke_count = static_cast<int>(step.strokes);
         drawn.continues = path > step.path;
+        if (step.also) drawn.also = static_cast<int>(*step.also);
         const StrokeDirection direction = direction_of(step, reading, outlines);
         drawn.direction = direction.direction;
         drawn.evidence = direction.evidence;
         drawn.length = length_share(step, reading, outlines);
-        drawn.distance = distance_of(step, reading, outlines);
+        drawn.distance = compared(step, reading, outlines).distance();
       } else {
         find_attempt(drawn, path, reading, outlines);
       }
@@ -181,11 +181,12 @@ Farness farness_of(const FormMatch& matched) {
   for (const ReadingStep& step : reading.steps) {
     if (step.paths == 0 || (step.paths == 1 && reading.costs->is_tap(step.path))) continue;
     const DrawnStroke& drawn = matched.result.drawn[step.path];
-    double distance = drawn.attempt >= 0 ? judge_constants.far_distance : judge_constants.left_over_cost, unlike = distance;
+    double distance = drawn.attempt >= 0 ? judge_constants.far_distance : judge_constants.left_over_cost;
+    double unlike = distance;
     if (step.strokes > 0) {
       distance = unlike = drawn.distance;
-      const bool is_alike = shape_distance(step, reading, *matched.outlines) < judge_constants.far_shape;
-      if (is_alike) unlike = std::min(unlike, judge_constants.far_distance);
+      const double shapes = compared(step, reading, *matched.outlines).distance_of_shapes();
+      if (shapes < judge_constants.far_shape) unlike = std::min(unlike, judge_constants.far_distance);
     }
     ++sum.count;
     sum.distance += distance;

@@ -32,7 +32,7 @@ PenPath finished(PenPath path, const PenPath& stroke) {
 bool is_written(const MatchResult& match, std::size_t stroke) {
   const auto index = static_cast<int>(stroke);
   return std::any_of(match.drawn.begin(), match.drawn.end(), [index](const DrawnStroke& drawn) {
-    return drawn.stroke <= index && index < drawn.stroke + drawn.stroke_count;
+    return (drawn.stroke <= index && index < drawn.stroke + drawn.stroke_count) || drawn.also == index;
   });
 }
 

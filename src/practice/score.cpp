@@ -179,14 +179,17 @@ class CharacterScorer {
 
   /// The strokes that a pen-down wrote, joined by straight lines.
   JoinedLine join(const DrawnStroke& drawn, bool from_the_end) const {
+    std::vector<int> strokes;
+    for (int k = 0; k < drawn.stroke_count; ++k) strokes.push_back(drawn.stroke + k);
+    if (drawn.also >= 0) strokes.push_back(drawn.also);
+    if (from_the_end) std::reverse(strokes.begin(), strokes.end());
     JoinedLine line;
     double length = 0.0;
-    for (int k = 0; k < drawn.stroke_count; ++k) {
-      const int next = drawn.stroke + (from_the_end ? drawn.stroke_count - 1 - k : k);
+    for (const int next : strokes) {
       const auto stroke = static_cast<std::size_t>(next);
       std::vector<Point> points = templates_[stroke].line;
       if (from_the_end) std::reverse(points.begin(), points.end());
-      if (k > 0) length += (points.front() - line.points.back()).norm();
+      if (!line.points.empty()) length += (points.front() - line.points.back()).norm();
       line.points.insert(line.points.end(), points.begin(), points.end());
       line.parts.push_back({stroke, length, length + path_length(points)});
       length = line.parts.back().to;
@@ -264,7 +267,8 @@ class CharacterScorer {
   int count_strokes(Wrong wrong) const {
     int count = 0;
     for (const DrawnStroke& drawn : result_.match.drawn) {
-      if (drawn.stroke >= 0 && !drawn.continues && wrong(drawn)) count += drawn.stroke_count;
+      if (drawn.stroke < 0 || drawn.continues || !wrong(drawn)) continue;
+      count += drawn.stroke_count + (drawn.also >= 0 ? 1 : 0);
     }
     return count;
   }

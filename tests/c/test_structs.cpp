@@ -390,6 +390,7 @@ TEST_CASE("pen-downs are matched as in C++, with remarks for people") {
     CHECK((drawn.tap != 0) == there.tap);
     CHECK(drawn.direction == static_cast<int>(there.direction));
     CHECK(drawn.attempt == there.attempt);
+    CHECK(drawn.also == there.also);
     CHECK(drawn.length == Approx(there.length));
     if (std::isfinite(there.distance)) CHECK(drawn.distance == Approx(there.distance).margin(1e-12));
     taps += there.tap;
@@ -536,7 +537,7 @@ TEST_CASE("structs have the sizes stated here: one that grows must state its fir
   CHECK(sizeof(calligraphy_renderer_options) == 384);
   CHECK(sizeof(calligraphy_tick) == 360);
   CHECK(sizeof(calligraphy_servo_state) == 192);
-  CHECK(sizeof(calligraphy_drawn_stroke) == 48);
+  CHECK(sizeof(calligraphy_drawn_stroke) == 56);
   CHECK(sizeof(calligraphy_remark) == 104);
   CHECK(sizeof(calligraphy_character_score) == 208);
   CHECK(sizeof(calligraphy_stroke_score) == 56);

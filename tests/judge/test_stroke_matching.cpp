@@ -458,6 +458,43 @@ TEST_CASE("strokes joined out of order are told as joined", "[judge]") {
   CHECK(match.remarks.size() == 3);
 }
 
+TEST_CASE("strokes that do not follow each other may be joined", "[judge]") {
+  const Character mouth = character_of("口");
+  const auto is_joined = [](const MatchResult& match, int stroke, int other) {
+    CAPTURE(told(match));
+    REQUIRE(match.count(StrokeRemarkKind::joined) == 1);
+    CHECK(match.remarks.size() == 1);
+    const DrawnStroke& drawn = match.drawn[static_cast<std::size_t>(match.remarks[0].path)];
+    CHECK((drawn.stroke == stroke && drawn.stroke_count == 1 && drawn.also == other));
+    CHECK((match.remarks[0].stroke == stroke && match.remarks[0].other_stroke == other));
+  };
+  SECTION("an L and a 7") {
+    std::vector<PenPath> drawn = {line({0.2, 0.75}, {0.22, 0.2}), line({0.2, 0.75}, {0.8, 0.75})};
+    append(drawn[0], line({0.22, 0.2}, {0.78, 0.2}));
+    append(drawn[1], line({0.8, 0.75}, {0.77, 0.2}));
+    const MatchResult match = match_strokes(mouth, drawn);
+    is_joined(match, 0, 2);
+    CHECK(match.drawn[1].stroke == 1);
+    CHECK(remark_text(match.remarks[0], mouth) ==
+          "Strokes 1 (shù) and 3 (héng) are joined, as in quick writing: lift the pen between them.");
+  }
+  SECTION("of a larger character, far apart in the order") {
+    const Character field = character_of("田");
+    std::vector<PenPath> drawn = copy_of(field);
+    append(drawn[0], drawn[4]);
+    drawn.pop_back();
+    is_joined(match_strokes(field, drawn), 0, 4);
+  }
+  SECTION("not where a stroke was left out") {
+    std::vector<PenPath> drawn = copy_of(mouth);
+    drawn.pop_back();
+    const MatchResult match = match_strokes(mouth, drawn);
+    CAPTURE(told(match));
+    REQUIRE(match.remarks.size() == 1);
+    CHECK(match.remarks[0].kind == StrokeRemarkKind::missing);
+  }
+}
+
 TEST_CASE("strokes that turn about each other are told as joined", "[judge]") {
   const auto set = calligraphy_test::imported_characters();
   if (!set) return;

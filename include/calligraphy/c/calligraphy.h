@@ -785,6 +785,8 @@ typedef struct calligraphy_drawn_stroke {
   int32_t attempt;       ///< the stroke that it resembles, if it wrote none; -1: no stroke
   double length;         ///< over that of what it wrote, once both are aligned [1]
   double distance;       ///< mean distance from what it wrote, once both are aligned [em]
+  int32_t also;          ///< the stroke to which it went on, joined though it is not the next one; -1: none
+  int32_t reserved;      ///< 0
 } calligraphy_drawn_stroke;
 
 /// The pen-down with this index.

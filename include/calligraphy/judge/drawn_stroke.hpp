@@ -26,7 +26,7 @@ struct DrawnStroke {
   double length = 0.0;    ///< length over that of what it wrote, once both are aligned [1]
   double distance = 0.0;  ///< mean distance from what it wrote, once both are aligned [em]
   double evidence = 0.0;  ///< evidence that its direction or shape is wrong (StrokeRemark::evidence) [1]
-  int also = -1;          ///< another stroke that it went on to, which is not the next one; -1: none
+  int also = -1;          ///< the stroke to which it went on, joined though it is not the next one; -1: none
 };
 
 }  // namespace calligraphy

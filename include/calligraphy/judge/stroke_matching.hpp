@@ -29,7 +29,8 @@ struct MatchResult {
 /// whole: an error of position or size, a slant or a turn of up to some 30 degrees is not a mistake. The cost of a pair
 /// is then the mean distance between points at equal shares of the two lengths, forwards or backwards, plus a penalty
 /// for the angle between them. A pen-down that resembles no stroke is extra; a stroke that no pen-down resembles is
-/// missing; a pen-down that resembles several consecutive strokes has joined them. An order other than the standard one
+/// missing; a pen-down that resembles several consecutive strokes, or two others, has joined them; two or three
+/// pen-downs in a row that resemble one stroke together have broken it. An order other than the standard one
 /// is believed only where it fits better by twice the mean cost of this hand, or by a factor of 2; a stroke runs
 /// forwards within 60 degrees. For the steps and the bounds, and how often they are right, see docs/practice.md.
 /// O(readings paths strokes).

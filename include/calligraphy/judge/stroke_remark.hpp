@@ -76,7 +76,8 @@ struct StrokeRemark {
   int stroke = -1;        ///< the stroke of the character, or the first of several, from 0; -1: none
   int stroke_count = 0;   ///< number of strokes in a row
   int other_path = -1;    ///< the pen-down whose stroke changed places with this one, or that wrote what this attempts
-  /// The stroke that was due, or written before; for an extra pen-down, the one it attempts; of form, the other stroke
+  /// The stroke that was due, or written before; for an extra pen-down, the one it attempts; of joined strokes, the
+  /// second, if it is not the next one; of form, the other stroke
   /// of a relation, or the first stroke of the second part.
   int other_stroke = -1;
   char32_t other_character = 0;  ///< the character that the writing is nearer to; 0: none

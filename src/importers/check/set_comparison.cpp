@@ -82,7 +82,7 @@ class CharacterComparison {
     std::vector<std::size_t> numbers(match.drawn.size());  // of the strokes here, in the order there
     for (std::size_t i = 0; i < match.drawn.size(); ++i) {
       const DrawnStroke& drawn = match.drawn[i];
-      const bool is_one = drawn.stroke >= 0 && drawn.stroke_count == 1 && !drawn.continues;
+      const bool is_one = drawn.stroke >= 0 && drawn.stroke_count == 1 && drawn.also < 0 && !drawn.continues;
       if (!is_one) return;  // too unlike to tell
       numbers[static_cast<std::size_t>(drawn.stroke)] = i + 1;
     }

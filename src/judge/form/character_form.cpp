@@ -14,8 +14,9 @@ constexpr double within_line = 0.02;  // share of a line at either end in which 
 constexpr std::size_t least_points_beside = 2;
 // Of strokes that count in relations, and of those that are parallel [em, or 1].
 constexpr double shortest_related = 0.08, shortest_with_hook = 0.15;
-constexpr double least_parallel = 0.95, most_parallel_bow = 0.08, least_difference = 0.1, farthest_parallel = 0.5, farthest_related = 0.6;
-constexpr double clearly_across = 0.7;  // cosine of the chords of straight strokes, below which they lie side by side nowhere
+constexpr double least_parallel = 0.95, most_parallel_bow = 0.08, least_difference = 0.1, farthest_parallel = 0.5;
+constexpr double farthest_related = 0.6;
+constexpr double clearly_across = 0.7;  // cosine of the chords of straight strokes that lie side by side nowhere
 constexpr double least_share_beside = 0.35, least_share_parallel = 0.3;
 constexpr double least_parallel_neighbours = 0.85, least_one_sided = 0.95, least_gap = 0.06, most_gap = 0.6;
 

@@ -10,7 +10,7 @@ WrittenForm written_form(const CharacterForm& form, std::span<const PenPath> pat
   for (std::size_t path = 0; path < paths.size(); ++path) {
     const DrawnStroke& each = drawn[path];
     const bool is_continued = path + 1 < paths.size() && drawn[path + 1].continues;
-    if (each.stroke < 0 || each.stroke_count != 1 || each.continues || is_continued || each.tap) continue;
+    if (each.stroke < 0 || each.stroke_count != 1 || each.also >= 0 || each.continues || is_continued || each.tap) continue;
     if (each.direction == WritingDirection::neither) continue;
     std::vector<Point> points = paths[path];
     if (each.direction == WritingDirection::backwards) std::reverse(points.begin(), points.end());

@@ -14,21 +14,44 @@ constexpr double impossible = 9.0;  // finite, because assign() computes differe
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr PairCost impossible_pair = {never, 0.0, 0.0, false};
 
+StrokeRun run_along(std::span<const Point> line, double length) {
+  const Outline whole = outline(line);
+  return {whole, centred(whole), length, length_of(whole)};
+}
+
+PairCost pair_cost(const Outline& line, const Outline& shape, const StrokeRun& run) {
+  const double turned = judge_constants.turned_cost * trust_in_direction(run.length);
+  const double with = accord(shape, run.shape), against = accord(shape, reversed(run.shape));
+  const double forwards = mean_distance(line, run.line) + turned * (1.0 - with);
+  const double backwards =
+      mean_distance(line, reversed(run.line)) + turned * (1.0 - against) + judge_constants.backwards_cost;
+  return {std::min(forwards, backwards), with, against, backwards < forwards};
+}
+
 }  // namespace
 
-StrokeOutlines::StrokeOutlines(const Character& character) {
-  const std::vector<std::vector<Point>> lines = middle_lines(character);
-  for (std::size_t first = 0; first < lines.size(); ++first) {
+StrokeOutlines::StrokeOutlines(const Character& character) : lines_(middle_lines(character)) {
+  for (std::size_t first = 0; first < lines_.size(); ++first) {
     std::vector<Point> line;
     double length = 0.0;
-    for (std::size_t count = 1; count <= max_joined && first + count <= lines.size(); ++count) {
-      const std::vector<Point>& last = lines[first + count - 1];
+    for (std::size_t count = 1; count <= max_joined && first + count <= lines_.size(); ++count) {
+      const std::vector<Point>& last = lines_[first + count - 1];
       line.insert(line.end(), last.begin(), last.end());
       length += path_length(last);
-      const Outline whole = outline(line);
-      runs_[count - 1].push_back({whole, centred(whole), length, length_of(whole)});
+      runs_[count - 1].push_back(run_along(line, length));
     }
   }
+}
+
+bool StrokeOutlines::are_near(std::size_t first, std::size_t other) const {
+  if (other == first || other == first + 1) return false;
+  return (lines_[other].front() - lines_[first].back()).norm() <= judge_constants.max_apart_gap;
+}
+
+StrokeRun StrokeOutlines::apart(std::size_t first, std::size_t other) const {
+  std::vector<Point> line = lines_[first];
+  line.insert(line.end(), lines_[other].begin(), lines_[other].end());
+  return run_along(line, length(first) + length(other));
 }
 
 double trust_in_direction(double length) {
@@ -76,12 +99,11 @@ StrokeCosts::StrokeCosts(const StrokeOutlines& strokes, std::span<const DrawnLin
 
 PairCost StrokeCosts::compare(const Outline& line, const Outline& shape, const StrokeRun& run) {
   ++comparisons_;
-  const double turned = judge_constants.turned_cost * trust_in_direction(run.length);
-  const double with = accord(shape, run.shape), against = accord(shape, reversed(run.shape));
-  const double forwards = mean_distance(line, run.line) + turned * (1.0 - with);
-  const double backwards =
-      mean_distance(line, reversed(run.line)) + turned * (1.0 - against) + judge_constants.backwards_cost;
-  return {std::min(forwards, backwards), with, against, backwards < forwards};
+  return pair_cost(line, shape, run);
+}
+
+PairCost StrokeCosts::of_run(std::size_t path, const StrokeRun& run) const {
+  return pair_cost(placed(path), shapes_[path], run);
 }
 
 void StrokeCosts::compare_singles(std::size_t path) {

@@ -34,8 +34,13 @@ class StrokeOutlines {
   std::size_t count() const { return runs_[0].size(); }
   const StrokeRun& run(std::size_t first, std::size_t strokes) const { return runs_[strokes - 1][first]; }
   double length(std::size_t stroke) const { return runs_[0][stroke].length; }
+  /// Whether one stroke begins so near the end of another, which it does not follow, that the pen may stay down.
+  bool are_near(std::size_t first, std::size_t other) const;
+  /// What a pen draws that goes on from one stroke to another, whichever it is.
+  StrokeRun apart(std::size_t first, std::size_t other) const;
 
  private:
+  std::vector<std::vector<Point>> lines_;
   std::array<std::vector<StrokeRun>, max_joined> runs_;  ///< by the number of strokes and the first of them
 };
 
@@ -62,6 +67,7 @@ class StrokeCosts {
 
   std::size_t paths() const { return placed_.size(); }
   std::size_t strokes() const { return strokes_->count(); }
+  const StrokeOutlines& outlines() const { return *strokes_; }
   const AffineMap& fit() const { return fit_; }
   /// The aligned outline of a pen-down, or of `count` pen-downs as one line.
   const Outline& placed(std::size_t path, std::size_t count = 1) const { return placed_[path][count - 1]; }
@@ -79,6 +85,9 @@ class StrokeCosts {
   const PairCost& broken(std::size_t path, std::size_t count, std::size_t stroke) const {
     return broken_[(path * strokes() + stroke) * max_broken + count - 1];
   }
+
+  /// A pen-down as a run of strokes, whichever they are.
+  PairCost of_run(std::size_t path, const StrokeRun& run) const;
 
   /// Number of comparisons of outlines so far.
   int comparisons() const { return comparisons_; }

@@ -17,13 +17,13 @@ constexpr double almost = 0.999;  // evidence just short of a remark
 double length_share(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
   double length = 0.0;
   for (std::size_t path = step.path; path < step.path + step.paths; ++path) length += reading.costs->length(path);
-  const double whole = strokes.run(step.stroke, step.strokes).line_length;
+  const double whole = run_of(step, strokes).line_length;
   return whole > 0.0 ? length / whole : 1.0;
 }
 
 StrokeDirection direction_of(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
   if (reading.costs->is_tap(step.path)) return {};
-  const StrokeRun& run = strokes.run(step.stroke, step.strokes);
+  const StrokeRun run = run_of(step, strokes);
   const double share = length_share(step, reading, strokes);
   const double left_out = (1.0 - share) * run.line_length;
   if (share < judge_constants.least_share && left_out > judge_constants.sure_length) {
@@ -45,7 +45,7 @@ StrokeDirection direction_of(const ReadingStep& step, const StrokeReading& readi
     const double off_reverse = off(pair.against, length, judge_constants.backwards_angle);
     if (off_reverse <= 1.0) return {WritingDirection::backwards, 1.0 / std::max(off_reverse, 1.0 - almost)};
   }
-  if (step.paths > 1 || step.strokes > 1) return {WritingDirection::forwards, 0.0};
+  if (step.paths > 1 || step.strokes > 1 || step.also) return {WritingDirection::forwards, 0.0};
   return {WritingDirection::neither, std::max(1.0, off(pair.with, run.length, judge_constants.forwards_angle))};
 }
 

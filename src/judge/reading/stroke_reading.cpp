@@ -22,7 +22,27 @@ namespace {
 
 using detail::judge_constants;
 
+constexpr std::ptrdiff_t max_apart_tried = 3;  // pairs of strokes joined out of turn that are tried, for speed
+
 using Costs = std::shared_ptr<const StrokeCosts>;
+
+/// The parts of a path before and after a share of its length.
+std::pair<PenPath, PenPath> cut(const PenPath& path, double share) {
+  const double at = share * path_length(path);
+  PenPath begun = {path.front()}, rest;
+  double reached = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double step = (path[i] - path[i - 1]).norm();
+    if (rest.empty() && reached + step >= at && step > 0.0) {
+      begun.push_back(path[i - 1] + std::clamp((at - reached) / step, 0.0, 1.0) * (path[i] - path[i - 1]));
+      rest.push_back(begun.back());
+    }
+    (rest.empty() ? begun : rest).push_back(path[i]);
+    reached += step;
+  }
+  if (rest.empty()) rest.push_back(path.back());
+  return {begun, rest};
+}
 
 /// The least saving for which another order is believed of a hand with this mean cost [em].
 double least_saving(double mean_cost) {
@@ -134,6 +154,7 @@ class Reader {
       }
       chosen = choose(best);
     }
+    join_apart(chosen);
     pair_leftovers(chosen);
     unpair_attempts(chosen);
     chosen.comparisons = comparisons_;
@@ -159,6 +180,87 @@ class Reader {
     }
     const BoxMap box = fit_box(turned, character_);
     return {box.scale.asDiagonal() * turn, box.offset};
+  }
+
+  /// A pen-down as two strokes of which the second does not follow the first.
+  struct ApartPair {
+    std::size_t path, first, other;
+    double share;  ///< share of the length at which the second begins [1]
+    double cost;
+  };
+
+  /// The pairs that a pen-down resembles clearly more than any of its strokes alone, the cheapest first.
+  std::vector<ApartPair> apart_pairs(const StrokeCosts& costs) {
+    std::vector<ApartPair> pairs;
+    for (std::size_t first = 0; first < strokes_.count(); ++first) {
+      for (std::size_t other = 0; other < strokes_.count(); ++other) {
+        if (!strokes_.are_near(first, other)) continue;
+        const StrokeRun run = strokes_.apart(first, other);
+        for (std::size_t path = 0; path < paths_.size(); ++path) {
+          if (costs.length(path) < judge_constants.min_joined_length * run.line_length) continue;
+          const Outline &line = costs.placed(path), ways = line - run.line;
+          if (std::max(ways.row(0).norm(), ways.bottomRows<1>().norm()) > judge_constants.max_apart_gap) continue;
+          ++comparisons_;
+          const PairCost pair = costs.of_run(path, run);
+          const double alone = std::min(costs.single(path, first).cost, costs.single(path, other).cost);
+          const double most =
+              std::min(judge_constants.max_joined_or_broken_cost, judge_constants.max_apart_share * alone);
+          if (pair.backwards || pair.cost >= most) continue;
+          const double share = (strokes_.length(first) + 0.5 * (run.line_length - run.length)) / run.line_length;
+          pairs.push_back({path, first, other, share, pair.cost});
+        }
+      }
+    }
+    std::sort(pairs.begin(), pairs.end(),
+              [](const ApartPair& one, const ApartPair& other) { return one.cost < other.cost; });
+    return pairs;
+  }
+
+  /// Where there are too few pen-downs, one may have written two strokes that do not follow each other: reads it as two
+  /// pen-downs, and believes that if it costs clearly less.
+  void join_apart(StrokeReading& reading) {
+    if (paths_.size() >= strokes_.count() || reading.cost < judge_constants.min_saving) return;
+    const Costs as_read = reading.costs;
+    if (join_apart(reading, *as_read)) return;
+    join_apart(reading, *place(box_of_turned(0.0)));  // the reading may have bent the fit to the wrong stroke
+  }
+
+  bool join_apart(StrokeReading& reading, const StrokeCosts& costs) {
+    const std::vector<ApartPair> pairs = apart_pairs(costs);
+    return std::any_of(pairs.begin(), pairs.begin() + std::min(std::ssize(pairs), max_apart_tried),
+                       [&](const ApartPair& pair) { return join_apart(reading, pair, costs.fit()); });
+  }
+
+  bool join_apart(StrokeReading& reading, const ApartPair& pair, const AffineMap& start) {
+    const auto [begun, rest] = cut(paths_[pair.path], pair.share);
+    std::vector<PenPath> parts(paths_.begin(), paths_.end());
+    parts[pair.path] = begun;
+    parts.insert(parts.begin() + static_cast<std::ptrdiff_t>(pair.path) + 1, rest);
+    Reader reader(character_, strokes_, parts);
+    const StrokeReading in_two = reader.choose(reader.refine(reader.begin(start)));
+    comparisons_ += reader.comparisons_;
+    const double saved = reading.cost - in_two.cost - judge_constants.join_cost;
+    if (saved < std::max(judge_constants.min_apart_saving, least_saving(in_two.mean_cost()))) return false;
+    std::vector<ReadingStep> steps;
+    for (ReadingStep step : in_two.steps) {
+      const bool is_part = step.paths > 0 && step.path <= pair.path + 1 && step.path + step.paths > pair.path;
+      if (is_part) {
+        const std::size_t stroke = step.path == pair.path ? pair.first : pair.other;
+        if (step.paths != 1 || step.strokes != 1 || step.stroke != stroke) return false;
+        if (in_two.pair(step).backwards) return false;
+        if (step.path > pair.path) continue;
+        step.also = pair.other;
+        step.cost = pair.cost;
+      } else if (step.path > pair.path) {
+        --step.path;
+      }
+      steps.push_back(step);
+    }
+    reading.steps = std::move(steps);
+    reading.cost = in_two.cost + judge_constants.join_cost;
+    reading.costs = place(in_two.costs->fit());
+    reading.order_evidence = in_two.order_evidence;
+    return true;
   }
 
   /// An extra pen-down in the place of a missing stroke is that stroke, misplaced or of another shape; so is one that
@@ -193,7 +295,7 @@ class Reader {
     const StrokeCosts& costs = *reading.costs;
     std::vector<ReadingStep> missing;
     for (ReadingStep& step : reading.steps) {
-      if (step.paths != 1 || step.strokes != 1 || costs.is_tap(step.path)) continue;
+      if (step.paths != 1 || step.strokes != 1 || step.also || costs.is_tap(step.path)) continue;
       const std::size_t nearest = nearest_stroke(costs, step.path);
       const double cost = costs.single(step.path, nearest).cost;
       const double most = std::min(judge_constants.max_attempt_cost, judge_constants.max_attempt_share * step.cost);
@@ -413,7 +515,12 @@ class Reader {
 
 }  // namespace
 
-const PairCost& StrokeReading::pair(const ReadingStep& step) const {
+StrokeRun run_of(const ReadingStep& step, const StrokeOutlines& strokes) {
+  return step.also ? strokes.apart(step.stroke, *step.also) : strokes.run(step.stroke, step.strokes);
+}
+
+PairCost StrokeReading::pair(const ReadingStep& step) const {
+  if (step.also) return costs->of_run(step.path, costs->outlines().apart(step.stroke, *step.also));
   if (step.paths > 1) return costs->broken(step.path, step.paths, step.stroke);
   if (step.strokes > 1) return costs->joined(step.path, step.stroke, step.strokes);
   return costs->single(step.path, step.stroke);

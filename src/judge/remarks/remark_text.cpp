@@ -208,6 +208,9 @@ class Sentence {
   /// "2 (héng) to 4 (nà)"
   std::string all_strokes() const {
     const std::string first = stroke(remark_.stroke);
+    if (remark_.kind == StrokeRemarkKind::joined && remark_.other_stroke >= 0) {
+      return language_.text("strokes.two", {{"first", first}, {"last", stroke(remark_.other_stroke)}});
+    }
     if (remark_.stroke_count < 2) return first;
     return language_.text(remark_.stroke_count == 2 ? "strokes.two" : "strokes.more",
                           {{"first", first}, {"last", stroke(last())}});

@@ -38,6 +38,7 @@ class Remarks {
     std::vector<bool> is_written(strokes_.size(), false);
     for (const int path : written_) {
       std::fill_n(is_written.begin() + at(path).stroke, at(path).stroke_count, true);
+      if (at(path).also >= 0) is_written[static_cast<std::size_t>(at(path).also)] = true;
     }
     for (int stroke = 0; stroke < static_cast<int>(strokes_.size()); ++stroke) {
       if (is_written[static_cast<std::size_t>(stroke)]) continue;
@@ -86,6 +87,7 @@ class Remarks {
            .path_count = parts,
            .stroke = drawn.stroke,
            .stroke_count = drawn.stroke_count,
+           .other_stroke = kind == StrokeRemarkKind::joined ? drawn.also : -1,
            .place = place_of_path(path),
            .evidence = evidence,
            .length = drawn.length,
@@ -95,7 +97,8 @@ class Remarks {
       remark_on_stroke(StrokeRemarkKind::broken,
                        std::max(1.0, share_beside_longest(path, parts) / judge_constants.sure_part));
     }
-    if (drawn.stroke_count > 1) remark_on_stroke(StrokeRemarkKind::joined, judge_constants.joined_evidence * drawn.stroke_count);
+    const int joined = drawn.stroke_count + (drawn.also >= 0 ? 1 : 0);
+    if (joined > 1) remark_on_stroke(StrokeRemarkKind::joined, judge_constants.joined_evidence * joined);
     if (drawn.direction == WritingDirection::backwards) {
       remark_on_stroke(StrokeRemarkKind::direction, drawn.evidence);
     } else if (drawn.direction != WritingDirection::unknown) {
@@ -113,7 +116,8 @@ class Remarks {
                         .direction = at(path).direction};
     for (const int other : written_) {
       const int beyond = remark.other_stroke - at(other).stroke;
-      if (0 <= beyond && beyond < at(other).stroke_count) remark.other_path = other;
+      const bool is_also = remark.other_stroke >= 0 && remark.other_stroke == at(other).also;
+      if (is_also || (0 <= beyond && beyond < at(other).stroke_count)) remark.other_path = other;
     }
     add(remark);
   }
