@@ -74,7 +74,7 @@ struct Compared {
   }
 };
 
-Compared compared(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
+Compared compare_step(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
   const Outline line = run_of(step, strokes).line;
   return {reading.costs->placed(step.path, step.paths), reading.pair(step).backwards ? reversed(line) : line};
 }
@@ -142,7 +142,7 @@ FormMatch match_form(const Character& character, std::span<const PenPath> paths,
         drawn.direction = direction.direction;
         drawn.evidence = direction.evidence;
         drawn.length = length_share(step, reading, outlines);
-        drawn.distance = compared(step, reading, outlines).distance();
+        drawn.distance = compare_step(step, reading, outlines).distance();
       } else {
         find_attempt(drawn, path, reading, outlines);
       }
@@ -185,7 +185,7 @@ Farness farness_of(const FormMatch& matched) {
     double unlike = distance;
     if (step.strokes > 0) {
       distance = unlike = drawn.distance;
-      const double shapes = compared(step, reading, *matched.outlines).distance_of_shapes();
+      const double shapes = compare_step(step, reading, *matched.outlines).distance_of_shapes();
       if (shapes < judge_constants.far_shape) unlike = std::min(unlike, judge_constants.far_distance);
     }
     ++sum.count;
