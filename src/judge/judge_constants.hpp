@@ -113,7 +113,7 @@ struct JudgeConstants {
   double side_limit = 0.2;                 ///< gap between strokes on the one side and the other, together [em]
   double side_noise = 4.0;                 ///< the same [1]
   double straight_limit = 0.13;            ///< bow that a stroke lacks, or root of the sum of squares of all [em]
-  double bent_limit = 0.16;                ///< bow of a straight stroke, over its length [1]
+  double bent_limit = 0.17;                ///< bow of a straight stroke, over its length [1]
   double wavy_limit = 0.35;                ///< its length over its chord, beyond 1 [1]
   double hook_limit = 0.25;                ///< length of a hook that is lacking [em]
   double place_limit = 0.155;               ///< distance of a stroke from its place [em]

@@ -15,6 +15,8 @@
 #include "base/require.hpp"
 #include "judge/judge_constants.hpp"
 #include "judge/pens/pen_paths.hpp"
+#include "judge/pens/resemblance.hpp"
+#include "judge/reading/farness.hpp"
 #include "judge/reading/other_character.hpp"
 #include "judge/reading/stroke_direction.hpp"
 #include "judge/reading/writing_order.hpp"
@@ -61,22 +63,6 @@ void prefer_corrections(StrokeReading& reading) {
     std::swap(extra->path, wrong.path);
     wrong.cost = reading.costs->single(wrong.path, wrong.stroke).cost;
   }
-}
-
-/// What the pen-downs of a step drew, and what its strokes wanted; of all parts of a broken stroke together.
-struct Compared {
-  Outline drawn, wanted;
-
-  double distance() const { return mean_distance(drawn, wanted); }
-  /// The mean distance once both have the same centre.
-  double distance_of_shapes() const {
-    return mean_distance(drawn.rowwise() - drawn.colwise().mean(), wanted.rowwise() - wanted.colwise().mean());
-  }
-};
-
-Compared compare_step(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes) {
-  const Outline line = run_of(step, strokes).line;
-  return {reading.costs->placed(step.path, step.paths), reading.pair(step).backwards ? reversed(line) : line};
 }
 
 /// Finds what a pen-down that wrote no stroke attempted: the stroke it resembles most among those along or against
@@ -167,46 +153,20 @@ void judge_form(FormMatch& matched, const Character& character, std::span<const 
                     [](const StrokeRemark& remark) { return remark.evidence >= sure_evidence; }));
 }
 
-/// How far the pen-downs are from what they wrote.
-struct Farness {
-  double count = 0.0;     ///< number of pen-downs
-  double distance = 0.0;  ///< their mean distance [em]
-  double unlike = 0.0;    ///< the same, without those that are only misplaced [em]
-  double far = 0.0;       ///< share of pen-downs that are far in place and shape [1]
-};
-
-Farness farness_of(const FormMatch& matched) {
-  const StrokeReading& reading = matched.reading;
-  Farness sum;
-  for (const ReadingStep& step : reading.steps) {
-    if (step.paths == 0 || (step.paths == 1 && reading.costs->is_tap(step.path))) continue;
-    const DrawnStroke& drawn = matched.result.drawn[step.path];
-    double distance = drawn.attempt >= 0 ? judge_constants.far_distance : judge_constants.left_over_cost;
-    double unlike = distance;
-    if (step.strokes > 0) {
-      distance = unlike = drawn.distance;
-      const double shapes = compare_step(step, reading, *matched.outlines).distance_of_shapes();
-      if (shapes < judge_constants.far_shape) unlike = std::min(unlike, judge_constants.far_distance);
-    }
-    ++sum.count;
-    sum.distance += distance;
-    sum.unlike += unlike;
-    if (unlike > judge_constants.far_distance) ++sum.far;
-  }
-  const double count = std::max(sum.count, 1.0);
-  return {sum.count, sum.distance / count, sum.unlike / count, sum.far / count};
-}
-
-/// Whether the writing cannot be read as the character: most of it is far off, or it is farther from the character than
-/// right writing ever is and no remark says why.
-bool is_unreadable(const FormMatch& matched) {
-  constexpr double fewest = 3.0;  // pen-downs: of fewer, each is judged
-  const Farness farness = farness_of(matched);
-  if (farness.count >= fewest && farness.unlike > judge_constants.far_distance &&
-      farness.far >= judge_constants.unreadable_share) {
-    return true;
-  }
-  return farness.count > 1.0 && farness.distance > judge_constants.max_unremarked_distance && matched.mistakes + matched.form_mistakes == 0;
+/// Of writing that is farther from the character than right writing ever is, without a remark that says why: the stroke
+/// that is out of place, or nothing if there is no single one.
+std::optional<StrokeRemark> remark_on_farthest(const Farness& farness, std::span<const PenPath> paths) {
+  if (!farness.misplaced) return std::nullopt;
+  const MisplacedStroke& found = *farness.misplaced;
+  return StrokeRemark{.kind = StrokeRemarkKind::place,
+                      .path = static_cast<int>(found.path),
+                      .path_count = 1,
+                      .stroke = static_cast<int>(found.stroke),
+                      .stroke_count = 1,
+                      .place = halfway(paths[found.path]),
+                      .evidence = farness.distance / judge_constants.max_unremarked_distance,
+                      .amount = found.offset.norm(),
+                      .offset = found.offset};
 }
 
 /// Whether every pen-down wrote a stroke, or bounced: then there is nothing beside the character.
@@ -313,8 +273,13 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
     if (whole && whole->kind == StrokeRemarkKind::several && all_wrote(matched[compared].result.drawn)) whole.reset();
     if (whole) {
       best = compared;
-    } else if (!(other && other->is_clear) && is_unreadable(matched[best])) {
-      whole = WholeFault{StrokeRemarkKind::unreadable};
+    } else if (!(other && other->is_clear)) {
+      FormMatch& match = matched[best];
+      const Farness farness = farness_of(match.reading, *match.outlines, match.result.drawn);
+      const auto farthest = remark_on_farthest(farness, paths);
+      const bool is_silent = match.mistakes + match.form_mistakes == 0 && farness.is_beyond_right_writing();
+      if (farness.is_all_over() || (is_silent && !farthest)) whole = WholeFault{StrokeRemarkKind::unreadable};
+      if (is_silent && farthest) match.form = {*farthest};
     }
   }
   FormMatch& chosen = matched[best];
