@@ -22,6 +22,7 @@
 namespace calligraphy {
 namespace {
 
+constexpr double clear_offset = 0.05;  // distance of an end from another stroke from which it shows a way [em]
 constexpr double straight = 0.85;  // distance of the ends, over the length, below which they do not show the way [1]
 // Shorter side of a box, over the longer, up to which places are not distinguished along it [1].
 constexpr double flat_stroke = 0.4, flat_character = 0.15;
@@ -255,7 +256,7 @@ class Sentence {
 
   /// The way in which a stroke, or its end, is out of place.
   Point way_off() const {
-    if (!remark_.offset.isZero()) return remark_.offset;
+    if (remark_.kind == StrokeRemarkKind::place || remark_.offset.norm() > clear_offset) return remark_.offset;
     if (remark_.kind == StrokeRemarkKind::crossing) return way_of_end();
     if (remark_.kind == StrokeRemarkKind::no_crossing) return -way_of_end();
     return remark_.offset;
