@@ -1,7 +1,6 @@
 #include <calligraphy/judge/stroke_matching.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -153,25 +152,69 @@ void judge_form(FormMatch& matched, const Character& character, std::span<const 
                     [](const StrokeRemark& remark) { return remark.evidence >= sure_evidence; }));
 }
 
-/// Of writing that is farther from the character than right writing ever is, without a remark that says why: the stroke
-/// that is out of place, or nothing if there is no single one.
-std::optional<StrokeRemark> remark_on_farthest(const Farness& farness, std::span<const PenPath> paths) {
-  if (!farness.misplaced) return std::nullopt;
-  const MisplacedStroke& found = *farness.misplaced;
-  return StrokeRemark{.kind = StrokeRemarkKind::place,
-                      .path = static_cast<int>(found.path),
-                      .path_count = 1,
-                      .stroke = static_cast<int>(found.stroke),
-                      .stroke_count = 1,
-                      .place = halfway(paths[found.path]),
-                      .evidence = farness.distance / judge_constants.max_unremarked_distance,
-                      .amount = found.offset.norm(),
-                      .offset = found.offset};
+/// Indices of the accepted form that the writing is read as, and of the best one with as many strokes as there are
+/// pen-downs. Judges the form of those that come into question.
+std::pair<std::size_t, std::optional<std::size_t>> best_forms(std::vector<FormMatch>& matched,
+                                                              std::span<const Character> accepted,
+                                                              std::span<const PenPath> steady,
+                                                              const JudgeTolerances& tolerances) {
+  double least_price = std::numeric_limits<double>::infinity();
+  for (const FormMatch& form : matched) least_price = std::min(least_price, form.price);
+  // A form of as many strokes as there are pen-downs, with nothing to remark, may be dearer than one with mistakes.
+  const auto is_dear = [&](const FormMatch& form) {
+    const bool is_right = form.outlines->count() == steady.size() && form.mistakes == 0;
+    return form.price > least_price * (is_right ? judge_constants.max_right_price : judge_constants.max_similar_price);
+  };
+  for (std::size_t i = 0; i < matched.size(); ++i) {
+    if (tolerances.form && !is_dear(matched[i])) judge_form(matched[i], accepted[i], steady, tolerances.evidence);
+  }
+  // Among forms of about the same price, the one with the fewest mistakes comes first.
+  const auto rank = [&](const FormMatch& form) {
+    if (is_dear(form)) return std::tuple(true, std::size_t{0}, std::size_t{0}, form.price);
+    return std::tuple(false, form.mistakes, form.form_mistakes, form.price);
+  };
+  std::size_t best = 0;
+  std::optional<std::size_t> best_of_same_count;
+  for (std::size_t i = 0; i < matched.size(); ++i) {
+    const FormMatch& next = matched[i];
+    if (rank(next) < rank(matched[best])) best = i;
+    if (next.outlines->count() != steady.size()) continue;
+    if (!best_of_same_count || rank(next) < rank(matched[*best_of_same_count])) best_of_same_count = i;
+  }
+  return {best, best_of_same_count};
 }
 
-/// Whether every pen-down wrote a stroke, or bounced: then there is nothing beside the character.
-bool all_wrote(std::span<const DrawnStroke> drawn) {
-  return std::all_of(drawn.begin(), drawn.end(), [](const DrawnStroke& each) { return each.stroke >= 0 || each.tap; });
+/// What is wrong with the writing as a whole, if anything.
+std::optional<WholeFault> fault_of_whole(FormMatch& matched, const Character& character,
+                                         std::span<const PenPath> steady) {
+  if (!matched.character_form) matched.character_form.emplace(middle_lines(character));
+  const auto fault = whole_fault(*matched.character_form, steady);
+  const std::vector<DrawnStroke>& drawn = matched.result.drawn;
+  const bool wrote_it_all =
+      std::all_of(drawn.begin(), drawn.end(), [](const DrawnStroke& each) { return each.stroke >= 0 || each.tap; });
+  return fault && fault->kind == StrokeRemarkKind::several && wrote_it_all ? std::nullopt : fault;
+}
+
+/// Whether the writing can be read as the character. Where it is farther from it than right writing ever is and no
+/// remark says why, there must be a single stroke that is out of place, which is then remarked.
+bool can_be_read(FormMatch& matched, std::span<const PenPath> paths) {
+  const Farness farness = farness_of(matched.reading, *matched.outlines, matched.result.drawn);
+  if (farness.is_all_over()) return false;
+  if (matched.mistakes + matched.form_mistakes > 0 || !farness.is_beyond_right_writing()) return true;
+  if (!farness.misplaced) return false;
+  const auto [path, stroke, offset] = *farness.misplaced;
+  const auto index = static_cast<int>(stroke);
+  std::erase_if(matched.form, [&](const StrokeRemark& remark) { return remark.stroke == index; });
+  matched.form.push_back({.kind = StrokeRemarkKind::place,
+                          .path = static_cast<int>(path),
+                          .path_count = 1,
+                          .stroke = index,
+                          .stroke_count = 1,
+                          .place = halfway(paths[path]),
+                          .evidence = farness.distance / judge_constants.max_unremarked_distance,
+                          .amount = offset.norm(),
+                          .offset = offset});
+  return true;
 }
 
 /// Tells that a fault of form makes another character, if it is the only one: then whoever reads it learns how.
@@ -193,30 +236,6 @@ void validate(const JudgeTolerances& tolerances) {
   require_above_zero("tolerances.evidence", tolerances.evidence, "");
 }
 
-const char* to_string(WritingDirection direction) noexcept {
-  constexpr std::array names = {"forwards", "backwards", "neither", "unknown"};
-  return names[static_cast<std::size_t>(direction)];
-}
-
-const char* to_string(StrokeRemarkKind kind) noexcept {
-  constexpr std::array names = {"order",     "direction",  "shape",       "joined",  "broken",   "missing", "extra",
-                                "character", "lookalike",  "unreadable",  "orientation", "several", "parts", "crossing",
-                                "no crossing", "gap",      "overlap",     "side",    "straight", "bent",    "wavy",
-                                "hook",      "place",      "length",      "proportion"};
-  return names[static_cast<std::size_t>(kind)];
-}
-
-const char* to_string(WritingOrientation orientation) noexcept {
-  constexpr std::array names = {"upright",     "mirrored",     "upside down",   "half turned",
-                                "turned left", "turned right", "mirrored left", "mirrored right"};
-  return names[static_cast<std::size_t>(orientation)];
-}
-
-const char* to_string(StrokeEnd end) noexcept {
-  constexpr std::array names = {"none", "start", "end"};
-  return names[static_cast<std::size_t>(end)];
-}
-
 int MatchResult::count(StrokeRemarkKind kind) const noexcept {
   return static_cast<int>(std::count_if(remarks.begin(), remarks.end(),
                                         [kind](const StrokeRemark& remark) { return remark.kind == kind; }));
@@ -231,31 +250,8 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   std::vector<PenPath> steady;
   for (const PenPath& path : paths) steady.push_back(without_jitter(path, spacing));
   std::vector<FormMatch> matched;
-  std::size_t best = 0;
-  std::optional<std::size_t> best_of_same_count;  // the best form with as many strokes as there are pen-downs
-  double least_price = std::numeric_limits<double>::infinity();
-  for (const Character& character : accepted) {
-    least_price = std::min(least_price, matched.emplace_back(match_form(character, paths, steady)).price);
-  }
-  // A form of as many strokes as there are pen-downs, with nothing to remark, may be dearer than one with mistakes.
-  const auto is_dear = [&](const FormMatch& form) {
-    const bool is_right = form.outlines->count() == steady.size() && form.mistakes == 0;
-    return form.price > least_price * (is_right ? judge_constants.max_right_price : judge_constants.max_similar_price);
-  };
-  for (std::size_t i = 0; i < accepted.size(); ++i) {
-    if (tolerances.form && !is_dear(matched[i])) judge_form(matched[i], accepted[i], steady, tolerances.evidence);
-  }
-  // Among forms of about the same price, the one with the fewest mistakes comes first.
-  const auto rank = [&](const FormMatch& form) {
-    if (is_dear(form)) return std::tuple(true, std::size_t{0}, std::size_t{0}, form.price);
-    return std::tuple(false, form.mistakes, form.form_mistakes, form.price);
-  };
-  for (std::size_t i = 0; i < accepted.size(); ++i) {
-    const FormMatch& next = matched[i];
-    if (rank(next) < rank(matched[best])) best = i;
-    if (next.outlines->count() != steady.size()) continue;
-    if (!best_of_same_count || rank(next) < rank(matched[*best_of_same_count])) best_of_same_count = i;
-  }
+  for (const Character& character : accepted) matched.push_back(match_form(character, paths, steady));
+  auto [best, best_of_same_count] = best_forms(matched, accepted, steady, tolerances);
   std::optional<OtherCharacter> other;
   // Writing of another character may resemble a form of fewer or more strokes slightly better than the one it can be
   // compared with; writing of the right character resembles its own form even with a mistake.
@@ -268,18 +264,11 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
   std::optional<WholeFault> whole;
   if (tolerances.form) {
     const std::size_t compared = best_of_same_count.value_or(best);
-    std::optional<CharacterForm>& form = matched[compared].character_form;
-    whole = whole_fault(form ? *form : form.emplace(middle_lines(accepted[compared])), steady);
-    if (whole && whole->kind == StrokeRemarkKind::several && all_wrote(matched[compared].result.drawn)) whole.reset();
+    whole = fault_of_whole(matched[compared], accepted[compared], steady);
     if (whole) {
       best = compared;
-    } else if (!(other && other->is_clear)) {
-      FormMatch& match = matched[best];
-      const Farness farness = farness_of(match.reading, *match.outlines, match.result.drawn);
-      const auto farthest = remark_on_farthest(farness, paths);
-      const bool is_silent = match.mistakes + match.form_mistakes == 0 && farness.is_beyond_right_writing();
-      if (farness.is_all_over() || (is_silent && !farthest)) whole = WholeFault{StrokeRemarkKind::unreadable};
-      if (is_silent && farthest) match.form = {*farthest};
+    } else if (!(other && other->is_clear) && !can_be_read(matched[best], paths)) {
+      whole = WholeFault{StrokeRemarkKind::unreadable};
     }
   }
   FormMatch& chosen = matched[best];
@@ -290,13 +279,13 @@ MatchResult match_strokes(std::span<const Character> accepted, std::span<const P
     result.remarks = {whole_remark(*whole, paths)};
     return result;
   }
-  std::erase_if(chosen.form, [&](const StrokeRemark& remark) { return remark.evidence < tolerances.evidence; });
   const bool is_makeable = other && other->is_twin && chosen.mistakes == 0 && best == best_of_same_count;
   if (other && ((is_makeable && make_other(chosen.form, other->code)) || !other->is_clear)) other.reset();
   result.remarks = remarks_on(accepted[best], paths, result.drawn, result.fit,
                               {chosen.reading.order_evidence, tolerances.evidence}, other);
-  if (!other || other->is_lookalike) {
-    result.remarks.insert(result.remarks.end(), chosen.form.begin(), chosen.form.end());
+  if (other && !other->is_lookalike) return result;
+  for (const StrokeRemark& remark : chosen.form) {
+    if (remark.evidence >= tolerances.evidence) result.remarks.push_back(remark);
   }
   return result;
 }
