@@ -73,6 +73,7 @@ struct JudgeConstants {
   double drawn_alike_distance = 0.01;  ///< distance below which characters do not differ: two of those pairs [em]
   double named_distance = 0.1;  ///< greatest distance from another character that is named: own ones of people [em]
   double twin_distance = 0.14;    ///< distance below which one fault of form may make one character of another [em]
+  double stranger_share = 0.65;   ///< greatest distance from any other character, over that from the one asked for [1]
   double twin_share = 0.8;        ///< greatest distance from a lookalike, over that from the character asked for [1]
   double unlike_price = 0.085;         ///< price per pen-down from which the best form is unlike; on 46 strangers [em]
 

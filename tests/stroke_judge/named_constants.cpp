@@ -73,6 +73,7 @@ constexpr auto named_constants = std::to_array<NamedConstant>({
     {"drawn_alike_distance", &JudgeConstants::drawn_alike_distance},
     {"named_distance", &JudgeConstants::named_distance},
     {"twin_distance", &JudgeConstants::twin_distance},
+    {"stranger_share", &JudgeConstants::stranger_share},
     {"twin_share", &JudgeConstants::twin_share},
     {"unlike_price", &JudgeConstants::unlike_price},
     {"max_turned_residual", &JudgeConstants::max_turned_residual},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "judge/judge_constants.hpp"
@@ -23,6 +24,7 @@ constexpr double closer = 0.6;                   // gap over that of the charact
 constexpr double least_bow = 0.05, kept_bend = 0.3;   // bow of a bent stroke [em], and share of it that is enough [1]
 constexpr double least_lacking = 0.03;                // bow of a stroke that counts as straight with the others [em]
 constexpr double most_bent = 0.2, free_bow = 0.08;    // bows over lengths [1]
+constexpr double least_motion = 0.4, least_tail = 0.05;  // of an end: over its tail [1], and of a tail [em]
 constexpr double ring = 0.3;            // distance of the ends of a ring, over its length [1]
 constexpr double least_left_out = 0.1;  // length of a stroke of which only a part was drawn [em]
 constexpr double one_sided = 0.4;  // mean distance from the chord, over the largest, of a bend rather than waves [1]
@@ -66,6 +68,14 @@ Bend bend(const FormLine& drawn, const FormLine& stroke) {
   const double waved = std::min(1.0, wave_share * wave_share) * detour / judge_constants.wavy_limit;
   const bool is_one_sided = std::abs(mean_offset(drawn)) > one_sided * std::abs(bow(drawn));
   return {std::max(bowed, waved), more * length, waved > bowed && !(bowed >= 1.0 && is_one_sided)};
+}
+
+/// The direction in which a stroke goes on beyond an end.
+Point outwards(const FormLine& line, StrokeEnd end) {
+  constexpr std::size_t back = form_points / 4;
+  const Point way = end == StrokeEnd::start ? Point(line.points.front() - line.points[back])
+                                            : Point(line.points.back() - line.points[form_points - 1 - back]);
+  return way / std::max(way.norm(), 1e-9);
 }
 
 /// The part of a stroke that was drawn, if it begins late or ends early: no more of its bend can be expected.
@@ -115,7 +125,7 @@ class FormFaults {
   double limit(double em, double noise) const { return std::max(em, noise * noise_); }
 
   void add(FormFault fault) {
-    if (fault.evidence < least_) return;
+    if (fault.evidence < least_ && fault.kind != FaultKind::hook) return;
     if (fault.other && fault.end != StrokeEnd::none) {
       const FormLine& other = body(*fault.other);
       fault.offset = fault.place - nearest_place(fault.place, other).point;
@@ -125,6 +135,32 @@ class FormFaults {
 
   const std::vector<DeepCrossing>& crossings_of(std::size_t one, std::size_t other) const {
     return crossings_[one * form_.count() + other];
+  }
+
+  /// An end of one of two strokes that made or lost a crossing.
+  struct GuiltyEnd {
+    std::size_t stroke, other;
+    StrokeEnd end;
+  };
+
+  /// Which of the four ends moved so far outwards (way: 1) or inwards (-1) from its place that it made or lost a
+  /// crossing: the one whose motion is the greatest share of its tail; if none moved clearly, that of the shortest tail.
+  GuiltyEnd end_that_moved(std::size_t one, std::size_t other, const DeepCrossing& crossing, double way) const {
+    GuiltyEnd guilty = crossing.is_of_one ? GuiltyEnd{one, other, crossing.end} : GuiltyEnd{other, one, crossing.end};
+    double most = least_motion;
+    for (const auto& [stroke, than, share] :
+         {std::tuple(one, other, crossing.share_one), std::tuple(other, one, crossing.share_other)}) {
+      const double length = way > 0.0 ? body(stroke).length() : form_.bodies[stroke].length();
+      for (const auto& [end, tail] :
+           {std::pair(StrokeEnd::start, share * length), std::pair(StrokeEnd::end, (1.0 - share) * length)}) {
+        const Point motion = end_of(body(stroke), end) - end_of(form_.bodies[stroke], end);
+        const double moved = way * motion.dot(outwards(form_.bodies[stroke], end)) / std::max(tail, least_tail);
+        if (moved <= most) continue;
+        most = moved;
+        guilty = {stroke, than, end};
+      }
+    }
+    return guilty;
   }
 
   void find_crossings() {
@@ -143,14 +179,14 @@ class FormFaults {
           }
           const double beyond = each.depth - wanted;
           if (wanted > touching_depth || beyond <= least_added_depth) continue;
-          const auto [stroke, other] = each.is_of_one ? std::pair(i, j) : std::pair(j, i);
+          const GuiltyEnd guilty = end_that_moved(i, j, each, 1.0);
           add({.kind = FaultKind::crossing,
-               .stroke = stroke,
-               .other = other,
-               .end = each.end,
+               .stroke = guilty.stroke,
+               .other = guilty.other,
+               .end = guilty.end,
                .amount = beyond,
                .evidence = beyond / limit(judge_constants.crossing_limit, judge_constants.crossing_noise),
-               .place = end_of(body(stroke), each.end)});
+               .place = end_of(body(guilty.stroke), guilty.end)});
         }
       }
     }
@@ -165,15 +201,15 @@ class FormFaults {
             wanted.begin(), wanted.end(), [](const auto& one, const auto& other) { return one.depth < other.depth; });
         if (deepest.depth < least_depth) continue;
         const double apart = std::min(least_distance(body(i), body(j)), least_distance(body(j), body(i)));
-        const auto [stroke, other] = deepest.is_of_one ? std::pair(i, j) : std::pair(j, i);
+        const GuiltyEnd guilty = end_that_moved(i, j, deepest, -1.0);
         add({.kind = FaultKind::no_crossing,
-             .stroke = stroke,
-             .other = other,
-             .end = deepest.end,
+             .stroke = guilty.stroke,
+             .other = guilty.other,
+             .end = guilty.end,
              .amount = deepest.depth + apart,
              .evidence = (deepest.depth + apart) /
                          limit(judge_constants.no_crossing_limit, judge_constants.no_crossing_noise),
-             .place = end_of(body(stroke), deepest.end)});
+             .place = end_of(body(guilty.stroke), guilty.end)});
       }
     }
   }
@@ -242,12 +278,13 @@ class FormFaults {
 
   void add_overlap(std::size_t stroke, std::size_t other, double closer_by, double evidence_of_share) {
     const double evidence = closer_by / limit(judge_constants.overlap_limit, judge_constants.overlap_noise);
+    if (offset_of(other).norm() > offset_of(stroke).norm()) std::swap(stroke, other);
     add({.kind = FaultKind::overlap,
          .stroke = stroke,
          .other = other,
          .amount = closer_by,
          .evidence = std::min(evidence, evidence_of_share),
-         .place = body(std::max(stroke, other)).centre()});
+         .place = body(stroke).centre()});
   }
 
   /// Shapes: of the readings with and without a final hook, of the drawn stroke and of the character's, the one that is
@@ -316,8 +353,8 @@ class FormFaults {
       const std::size_t i = strokes_[k];
       std::vector<double> others = laid_.residuals;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-      const Point offset = line(i).centre() - form_.strokes[i].centre();
-      const double noise = judge_constants.place_noise * median_of(others);
+      const Point offset = offset_of(i);
+      const double noise = judge_constants.place_noise * std::min(median_of(others), judge_constants.max_form_noise);
       add({.kind = FaultKind::place,
            .stroke = i,
            .amount = offset.norm(),
@@ -336,6 +373,9 @@ class FormFaults {
            .length = ratios[k] / middle});
     }
   }
+
+  /// From the place of a stroke to where it is.
+  Point offset_of(std::size_t stroke) const { return line(stroke).centre() - form_.strokes[stroke].centre(); }
 
   /// By how much the offset of one end of a stroke from its place differs from that of the other end [em].
   double difference_of_ends(std::size_t stroke) const {

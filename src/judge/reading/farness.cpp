@@ -46,7 +46,7 @@ Farness farness_of(const StrokeReading& reading, const StrokeOutlines& strokes, 
       if (is_alike) unlike = std::min(unlike, judge_constants.far_distance);
       if (distance > farthest) {
         sum.misplaced.reset();
-        if (is_alike && step.strokes == 1) sum.misplaced = {step.path, step.stroke, compared.offset()};
+        if (step.strokes == 1 && step.paths == 1) sum.misplaced = {step.path, step.stroke, compared.offset()};
       }
     } else if (distance > farthest) {
       sum.misplaced.reset();

@@ -25,7 +25,7 @@ struct ComparedStep {
 
 ComparedStep compare_step(const ReadingStep& step, const StrokeReading& reading, const StrokeOutlines& strokes);
 
-/// A stroke of the right shape in a wrong place.
+/// A stroke in a wrong place.
 struct MisplacedStroke {
   std::size_t path, stroke;
   Point offset;  ///< from its place to where it is [em]

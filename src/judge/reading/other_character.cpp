@@ -70,6 +70,7 @@ std::optional<OtherCharacter> other_character(const CharacterFeatures& character
     if (between < judge_constants.lookalike_distance) {
       return as_it_is.other < judge_constants.twin_share * from_asked_as_it_is;
     }
+    if (between >= judge_constants.twin_distance && least.other > judge_constants.stranger_share * from_asked) return false;
     const double past_middle = (from_asked * from_asked - least.other * least.other) / (2.0 * between);
     return past_middle > judge_constants.beyond_middle * 0.5 * between + doubt;
   };

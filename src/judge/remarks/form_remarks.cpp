@@ -14,12 +14,16 @@ namespace {
 
 constexpr double sure = 1.0;           // evidence from which a fault may explain more evident ones [1]
 constexpr double least_grouped = 0.8;  // share of its limit from which a fault is evident at all [1]
+constexpr double one_culprit = 2.0;    // distance of one stroke from its place, over that of any other [1]
 constexpr double one_place = 0.25;     // distance within which relations of one stroke are one fault [em]
 // Of right writing, many relations come within a quarter of their limits, few within a sixteenth: that is strict.
 constexpr double steepness = 4.0;
 
-/// The evidence of a fault by its size over the limit.
-double evidence_of(double share) { return share >= sure ? share : 1.0 - steepness * (1.0 - share); }
+/// The evidence of a fault by its size over the limit; a hook that is lacking is a note.
+double evidence_of(const FormFault& fault) {
+  if (fault.evidence >= sure || fault.kind == StrokeRemarkKind::hook) return fault.evidence;
+  return 1.0 - steepness * (1.0 - fault.evidence);
+}
 
 bool is_shape(StrokeRemarkKind kind) {
   return kind == StrokeRemarkKind::straight || kind == StrokeRemarkKind::bent || kind == StrokeRemarkKind::wavy;
@@ -94,6 +98,17 @@ std::vector<FaultGroup> grouped(std::vector<FormFault> faults) {
   return groups;
 }
 
+/// Whether one of several strokes on one another is much farther from its place than the others.
+bool has_one_culprit(const FaultGroup& group, const CharacterForm& form, const WrittenForm& written) {
+  std::vector<double> offsets;
+  for (std::size_t k = 0; k < written.strokes.size(); ++k) {
+    const std::size_t stroke = written.strokes[k];
+    if (group.has(stroke)) offsets.push_back((written.laid.lines[k].centre() - form.strokes[stroke].centre()).norm());
+  }
+  std::sort(offsets.rbegin(), offsets.rend());
+  return offsets.size() > 1 && offsets[0] > one_culprit * offsets[1];
+}
+
 }  // namespace
 
 std::vector<StrokeRemark> form_remarks(const CharacterForm& form, const WrittenForm& written,
@@ -108,7 +123,7 @@ std::vector<StrokeRemark> form_remarks(const CharacterForm& form, const WrittenF
   }
   for (FaultGroup& group : grouped(form_faults(form, written, least_grouped))) {
     const FormFault& fault = group.fault;
-    const double evidence = evidence_of(fault.evidence);
+    const double evidence = evidence_of(fault);
     if (evidence < least) continue;
     StrokeRemark remark{.kind = fault.kind,
                         .path = paths[fault.stroke],
@@ -129,7 +144,7 @@ std::vector<StrokeRemark> form_remarks(const CharacterForm& form, const WrittenF
       remark.path = 0, remark.path_count = static_cast<int>(drawn.size());
       remark.stroke = 0, remark.stroke_count = static_cast<int>(form.count());
     } else if (fault.kind == StrokeRemarkKind::overlap && group.strokes.size() > 2 &&
-               last - first + 1 == group.strokes.size()) {
+               last - first + 1 == group.strokes.size() && !has_one_culprit(group, form, written)) {
       remark.stroke = static_cast<int>(first), remark.stroke_count = static_cast<int>(group.strokes.size());
       remark.path = paths[first];
       remark.other_stroke = remark.other_path = -1;
