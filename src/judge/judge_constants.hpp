@@ -97,6 +97,8 @@ struct JudgeConstants {
   double max_form_turn = std::numbers::pi / 6.0;  ///< greatest turn of the writing onto the character [rad]
   double max_form_noise = 0.06;            ///< greatest noise that counts: a fault must not excuse itself [em]
   double meeting_distance = 0.04;          ///< distance up to which an end of a stroke meets another stroke [em]
+  double loose_meeting_distance = 0.08;    ///< the same where only a wide gap is a fault: a brush stops before [em]
+  double loose_gap = 4.0;                  ///< how much wider than that for each em from there [1]
   double min_hook_turn = std::numbers::pi / 3.0;  ///< least turn into a final hook [rad]
   double max_hook_share = 0.35;            ///< greatest length of a hook, over that of its stroke [1]
   double max_hook_length = 0.2;            ///< greatest length of a hook [em]

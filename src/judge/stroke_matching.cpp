@@ -144,7 +144,7 @@ FormMatch match_form(const Character& character, std::span<const PenPath> paths,
 
 /// Judges the form, of a reading that may be chosen.
 void judge_form(FormMatch& matched, const Character& character, std::span<const PenPath> steady, double least) {
-  const CharacterForm& form = matched.character_form.emplace(middle_lines(character));
+  const CharacterForm& form = matched.character_form.emplace(character);
   const std::vector<DrawnStroke>& drawn = matched.result.drawn;
   matched.form = form_remarks(form, written_form(form, steady, drawn), drawn, std::min(least, sure_evidence));
   matched.form_mistakes = static_cast<std::size_t>(
@@ -187,7 +187,7 @@ std::pair<std::size_t, std::optional<std::size_t>> best_forms(std::vector<FormMa
 /// What is wrong with the writing as a whole, if anything.
 std::optional<WholeFault> fault_of_whole(FormMatch& matched, const Character& character,
                                          std::span<const PenPath> steady) {
-  if (!matched.character_form) matched.character_form.emplace(middle_lines(character));
+  if (!matched.character_form) matched.character_form.emplace(character);
   const auto fault = whole_fault(*matched.character_form, steady);
   const std::vector<DrawnStroke>& drawn = matched.result.drawn;
   const bool wrote_it_all =

@@ -91,6 +91,8 @@ constexpr auto named_constants = std::to_array<NamedConstant>({
     {"max_form_turn", &JudgeConstants::max_form_turn},
     {"max_form_noise", &JudgeConstants::max_form_noise},
     {"meeting_distance", &JudgeConstants::meeting_distance},
+    {"loose_meeting_distance", &JudgeConstants::loose_meeting_distance},
+    {"loose_gap", &JudgeConstants::loose_gap},
     {"min_hook_turn", &JudgeConstants::min_hook_turn},
     {"max_hook_share", &JudgeConstants::max_hook_share},
     {"max_hook_length", &JudgeConstants::max_hook_length},

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "judge/judge_constants.hpp"
+#include "judge/pens/resemblance.hpp"
 
 namespace calligraphy {
 namespace {
@@ -70,10 +71,11 @@ Beside beside(const FormLine& line, const FormLine& other, const std::vector<boo
   return result;
 }
 
-CharacterForm::CharacterForm(std::span<const std::vector<Point>> lines) {
-  for (const std::vector<Point>& line : lines) {
-    strokes.push_back(form_line(line));
-    hooks.push_back(strokes.back().length() > shortest_with_hook ? hook_of(strokes.back()) : std::nullopt);
+CharacterForm::CharacterForm(const Character& character) {
+  for (const Stroke& stroke : calligraphy::strokes(character)) {
+    strokes.push_back(form_line(middle_line(stroke)));
+    const bool may_have_hook = stroke.type->code.ends_with('G') && strokes.back().length() > shortest_with_hook;
+    hooks.push_back(may_have_hook ? hook_of(strokes.back()) : std::nullopt);
     bodies.push_back(hooks.back() ? without_hook(strokes.back()) : strokes.back());
   }
   const std::size_t n = count();
@@ -91,7 +93,7 @@ CharacterForm::CharacterForm(std::span<const std::vector<Point>> lines) {
       for (const StrokeEnd end : {StrokeEnd::start, StrokeEnd::end}) {
         if (end == StrokeEnd::end && hooks[i]) continue;
         const NearestPlace foot = nearest_place(end_of(one, end), other);
-        if (foot.distance > judge_constants.meeting_distance) continue;
+        if (foot.distance > judge_constants.loose_meeting_distance) continue;
         meetings.push_back({i, end, j, foot.distance, foot.along, other.length() - foot.along});
       }
       if (!crossings_of(std::min(i, j), std::max(i, j)).empty() || one.length() < shortest_related) continue;

@@ -4,10 +4,10 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <calligraphy/judge/stroke_remark.hpp>
+#include <calligraphy/model/character.hpp>
 
 #include "form_line.hpp"
 
@@ -60,7 +60,7 @@ struct Parallels {
 
 /// The form of a character.
 struct CharacterForm {
-  explicit CharacterForm(std::span<const std::vector<Point>> lines);
+  explicit CharacterForm(const Character& character);
 
   std::size_t count() const { return strokes.size(); }
   const std::vector<DeepCrossing>& crossings_of(std::size_t one, std::size_t other) const {

@@ -27,6 +27,7 @@ constexpr double most_bent = 0.2, free_bow = 0.08;    // bows over lengths [1]
 constexpr double least_motion = 0.4, least_tail = 0.05;  // of an end: over its tail [1], and of a tail [em]
 constexpr double ring = 0.3;            // distance of the ends of a ring, over its length [1]
 constexpr double least_left_out = 0.1;  // length of a stroke of which only a part was drawn [em]
+constexpr double most_evident = 10.0;   // evidence of a bend: the chord of a ring has no length [1]
 constexpr double one_sided = 0.4;  // mean distance from the chord, over the largest, of a bend rather than waves [1]
 constexpr double shortest_shaped = 0.12, shortest_drawn = 0.1;  // strokes that have a shape [em]
 constexpr double full_bend_length = 0.3, full_wave_length = 0.4;  // lengths from which a bend or a wave counts in full [em]
@@ -67,7 +68,8 @@ Bend bend(const FormLine& drawn, const FormLine& stroke) {
   const double bowed = share * more / judge_constants.bent_limit;
   const double waved = std::min(1.0, wave_share * wave_share) * detour / judge_constants.wavy_limit;
   const bool is_one_sided = std::abs(mean_offset(drawn)) > one_sided * std::abs(bow(drawn));
-  return {std::max(bowed, waved), more * length, waved > bowed && !(bowed >= 1.0 && is_one_sided)};
+  const bool is_wavy = waved > bowed && !(bowed >= 1.0 && is_one_sided);
+  return {std::min(std::max(bowed, waved), most_evident), is_wavy ? std::abs(bow(drawn)) : more * length, is_wavy};
 }
 
 /// The direction in which a stroke goes on beyond an end.
@@ -123,6 +125,11 @@ class FormFaults {
   const FormLine& body(std::size_t stroke) const { return bodies_[*index_[stroke]]; }
   const FormLine& line(std::size_t stroke) const { return laid_.lines[*index_[stroke]]; }
   double limit(double em, double noise) const { return std::max(em, noise * noise_); }
+
+  /// What more is allowed of an end that does not quite meet the other stroke in the character either [em].
+  static double loose(const Meeting& meeting) {
+    return judge_constants.loose_gap * std::max(0.0, meeting.distance - judge_constants.meeting_distance);
+  }
 
   void add(FormFault fault) {
     if (fault.evidence < least_ && fault.kind != FaultKind::hook) return;
@@ -225,7 +232,7 @@ class FormFaults {
            .other = each.other,
            .end = each.end,
            .amount = apart,
-           .evidence = apart / limit(judge_constants.gap_limit, judge_constants.gap_noise),
+           .evidence = apart / (limit(judge_constants.gap_limit, judge_constants.gap_noise) + loose(each)),
            .place = end});
     }
   }
@@ -233,7 +240,8 @@ class FormFaults {
   /// Ends that met another stroke at its end and now lie in its course, or the other way round.
   void find_corners() {
     for (const Meeting& each : form_.meetings) {
-      if (!has(each.stroke) || !has(each.other) || std::min(each.before, each.after) > longest_corner) continue;
+      if (!has(each.stroke) || !has(each.other) || each.distance > judge_constants.meeting_distance) continue;
+      if (std::min(each.before, each.after) > longest_corner) continue;
       const FormLine& other = body(each.other);
       const NearestPlace foot = nearest_place(end_of(body(each.stroke), each.end), other);
       if (foot.distance > met_distance) continue;

@@ -103,12 +103,13 @@ std::optional<WholeFault> orientation_of(std::span<const FormLine> strokes, std:
 std::optional<WholeFault> exchanged_parts(std::span<const FormLine> strokes, std::span<const FormLine> written) {
   const std::size_t n = strokes.size();
   if (n < 4) return std::nullopt;
+  const double size = box_around(written).sizes().maxCoeff() / std::max(box_around(strokes).sizes().maxCoeff(), 1e-6);
   double least = std::numeric_limits<double>::infinity();
   std::size_t first_part = 0;
   for (std::size_t cut = 2; cut + 1 < n; ++cut) {
     const Point wanted = box_around(strokes.subspan(cut)).center() - box_around(strokes.first(cut)).center();
     const Point drawn = box_around(written.subspan(cut)).center() - box_around(written.first(cut)).center();
-    if (std::min(wanted.norm(), drawn.norm()) < shortest_way) continue;
+    if (std::min(wanted.norm(), drawn.norm() / std::max(size, 1e-6)) < shortest_way) continue;
     if (wanted.dot(drawn) > opposite * wanted.norm() * drawn.norm()) continue;
     const LaidWriting one = lay_on(strokes.first(cut), written.first(cut));
     const LaidWriting other = lay_on(strokes.subspan(cut), written.subspan(cut));
