@@ -83,6 +83,7 @@ struct JudgeConstants {
   double upright_factor = 1.5;         ///< least ratio of the two [1]
   double free_factor = 1.25;           ///< least ratio if strokes may be in any order and direction [1]
   double free_margin = 0.03;           ///< least difference from that residual [em]
+  double max_turn = 40.0 * std::numbers::pi / 180.0;  ///< greatest turn that is a hand's: of people's right pens, 18 at most [rad]
   double max_part_residual = 0.09;     ///< greatest residual of parts in each other's place [em]
   double part_factor = 1.6;            ///< least ratio of the residual of the whole to theirs [1]
   double max_one_of_several = 0.19;    ///< greatest residual of a character beside which there is more [em]

@@ -1,6 +1,7 @@
 #include <calligraphy/judge/stroke_matching.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -192,7 +193,13 @@ std::optional<WholeFault> fault_of_whole(FormMatch& matched, const Character& ch
   const std::vector<DrawnStroke>& drawn = matched.result.drawn;
   const bool wrote_it_all =
       std::all_of(drawn.begin(), drawn.end(), [](const DrawnStroke& each) { return each.stroke >= 0 || each.tap; });
-  return fault && fault->kind == StrokeRemarkKind::several && wrote_it_all ? std::nullopt : fault;
+  if (fault && !(fault->kind == StrokeRemarkKind::several && wrote_it_all)) return fault;
+  // What was turned upright for the reading, but too far for a hand's slant.
+  const Eigen::Matrix2d& map = matched.result.fit.linear;
+  const double turn = std::atan2(map(1, 0) - map(0, 1), map(0, 0) + map(1, 1));
+  if (drawn.size() < 2 || std::abs(turn) < judge_constants.max_turn) return std::nullopt;
+  return WholeFault{StrokeRemarkKind::orientation,
+                    turn < 0.0 ? WritingOrientation::turned_left : WritingOrientation::turned_right};
 }
 
 /// Whether the writing can be read as the character. Where it is farther from it than right writing ever is and no

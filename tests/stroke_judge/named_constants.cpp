@@ -81,6 +81,7 @@ constexpr auto named_constants = std::to_array<NamedConstant>({
     {"upright_factor", &JudgeConstants::upright_factor},
     {"free_factor", &JudgeConstants::free_factor},
     {"free_margin", &JudgeConstants::free_margin},
+    {"max_turn", &JudgeConstants::max_turn},
     {"max_part_residual", &JudgeConstants::max_part_residual},
     {"part_factor", &JudgeConstants::part_factor},
     {"max_one_of_several", &JudgeConstants::max_one_of_several},
