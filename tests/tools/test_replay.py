@@ -331,7 +331,7 @@ class Form(ReplayTest):
                 ("永", mirrored, "unclear unclear mirrored or turned", "orientation", "永 is mirrored"),
                 ("明", exchanged, "unclear unclear parts exchanged", "parts",
                  "strokes 1 (shù) to 4 (héng) belong at the left"),
-                ("三", [of["三"][1]] * 3, "correct correct 1 overlapping", "overlap", "lie on one another"),
+                ("三", [of["三"][1]] * 3, "correct correct 1 too close", "overlap", "are too close to one another"),
                 ("刀", [dao[0], [(0.525, 1.0), *dao[1]]], "correct correct 1 crossing", "crossing",
                  "Stroke 2 (piě) begins too high"),
                 ("永", [[points[0], points[-1]] for points in yong], "correct correct 1 straight", "straight",

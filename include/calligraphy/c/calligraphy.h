@@ -812,7 +812,7 @@ typedef enum calligraphy_remark_kind {
   CALLIGRAPHY_REMARK_CROSSING = 13,     ///< a stroke goes through or beyond another, which it should meet at most
   CALLIGRAPHY_REMARK_NO_CROSSING = 14,  ///< a stroke ends at or before another that it should go through
   CALLIGRAPHY_REMARK_GAP = 15,          ///< a stroke does not reach another that it should meet
-  CALLIGRAPHY_REMARK_OVERLAP = 16,      ///< a stroke lies on another beside which it should be
+  CALLIGRAPHY_REMARK_OVERLAP = 16,      ///< a stroke is too close to another, or lies on it
   CALLIGRAPHY_REMARK_SIDE = 17,         ///< a stroke is on the other side of another
   CALLIGRAPHY_REMARK_STRAIGHT = 18,     ///< a stroke lacks its bend, or all of them do
   CALLIGRAPHY_REMARK_BENT = 19,         ///< a stroke is bent that should be straight, or should be bent less
@@ -860,7 +860,7 @@ typedef struct calligraphy_remark {
   int32_t end;               ///< a calligraphy_stroke_end: that end of `stroke` which crosses or does not reach
   int32_t orientation;       ///< how the writing lies, one of calligraphy_orientation
   double amount;             ///< by how much it is off, of form; NaN where that cannot be measured [em]
-  double offset[2];          ///< of a stroke out of place: from its place to where it is [em]
+  double offset[2];          ///< of a stroke: from its place to where it is; of an end: from the other stroke to it [em]
 } calligraphy_remark;
 
 /// Number of languages of texts for people.

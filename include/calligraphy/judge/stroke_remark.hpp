@@ -27,7 +27,7 @@ enum class StrokeRemarkKind {
   crossing,     ///< a stroke goes through or beyond another, which it should meet at most
   no_crossing,  ///< a stroke ends at or before another that it should go through
   gap,          ///< a stroke does not reach another that it should meet
-  overlap,      ///< a stroke lies on another beside which it should be
+  overlap,      ///< a stroke is too close to another beside which it should be, or lies on it
   side,         ///< a stroke is on the other side of another
   straight,     ///< a stroke lacks its bend, or all of them do
   bent,         ///< a stroke is bent that should be straight, or should be bent less
@@ -77,18 +77,20 @@ struct StrokeRemark {
   int stroke_count = 0;   ///< number of strokes in a row
   int other_path = -1;    ///< the pen-down whose stroke changed places with this one, or that wrote what this attempts
   /// The stroke that was due, or written before; for an extra pen-down, the one it attempts; of joined strokes, the
-  /// second, if it is not the next one; of form, the other stroke
-  /// of a relation, or the first stroke of the second part.
+  /// second, if it is not the next one; of form, the other stroke of a relation, or the first one of the second part.
   int other_stroke = -1;
   char32_t other_character = 0;  ///< the character that the writing is nearer to; 0: none
   Point place = Point::Zero();   ///< where to point: on the writing, or where a missing stroke belongs beside it [em]
   /// How sure or how grave it is: from 1 on JudgeTolerances::normal() includes it; infinite: always included [1].
   double evidence = std::numeric_limits<double>::infinity();
-  double length = std::numeric_limits<double>::quiet_NaN();  ///< DrawnStroke::length; NaN where it does not matter [1]
+  /// DrawnStroke::length; of `length`, that over the length that it should have beside the others; NaN where it does not
+  /// matter [1].
+  double length = std::numeric_limits<double>::quiet_NaN();
   WritingDirection direction = WritingDirection::unknown;    ///< DrawnStroke::direction, where it matters
   StrokeEnd end = StrokeEnd::none;                           ///< the end of `stroke` that crosses or does not reach
-  /// By how much it is off, of form: how far a stroke goes beyond another, ends before it, or is out of place; the bow
-  /// that it has or lacks; NaN where that cannot be measured [em].
+  /// By how much it is off, of form: how far a stroke goes beyond another, ends before it, or is out of place; by how much
+  /// a gap between strokes is too small, or a stroke is longer than the one that should be; the bow that a stroke has or
+  /// lacks; the length of its hook. NaN where that cannot be measured, as of the whole [em].
   double amount = std::numeric_limits<double>::quiet_NaN();
   /// Of a stroke out of place: from its place to where it is; of an end that crosses, does not cross or does not reach
   /// another stroke: from that stroke to the end [em].

@@ -17,6 +17,7 @@ using FaultKind = StrokeRemarkKind;
 // Places along two strokes, as shares, up to which a crossing is one that the character has [1].
 constexpr double same_crossing = 0.35;
 constexpr double touching_depth = 0.05, least_added_depth = 0.03;  // of crossings [em]
+constexpr double stub = 0.03;                                      // depth up to which a crossing is none [em]
 constexpr double least_depth = 0.08;                               // of a crossing that must not be lacking [em]
 constexpr double met_distance = 0.06;                              // of an end that still lies on a stroke [em]
 constexpr double at_corner = 0.03, off_corner = 0.05, in_course = 0.08, longest_corner = 0.2;  // tails [em]
@@ -202,19 +203,24 @@ class FormFaults {
   void find_crossings_lacking() {
     for (const std::size_t i : strokes_) {
       for (const std::size_t j : strokes_) {
-        if (i >= j || form_.crossings_of(i, j).empty() || !crossings_of(i, j).empty()) continue;
+        if (i >= j || form_.crossings_of(i, j).empty()) continue;
+        double left = 0.0;  // a stub is no crossing
+        for (const DeepCrossing& each : crossings_of(i, j)) left = std::max(left, each.depth);
+        if (left > stub) continue;
         const std::vector<DeepCrossing>& wanted = form_.crossings_of(i, j);
         const DeepCrossing& deepest = *std::max_element(
             wanted.begin(), wanted.end(), [](const auto& one, const auto& other) { return one.depth < other.depth; });
         if (deepest.depth < least_depth) continue;
-        const double apart = std::min(least_distance(body(i), body(j)), least_distance(body(j), body(i)));
+        const double apart = crossings_of(i, j).empty()
+                                 ? std::min(least_distance(body(i), body(j)), least_distance(body(j), body(i)))
+                                 : 0.0;
         const GuiltyEnd guilty = end_that_moved(i, j, deepest, -1.0);
         add({.kind = FaultKind::no_crossing,
              .stroke = guilty.stroke,
              .other = guilty.other,
              .end = guilty.end,
-             .amount = deepest.depth + apart,
-             .evidence = (deepest.depth + apart) /
+             .amount = deepest.depth + apart - left,
+             .evidence = (deepest.depth + apart - left) /
                          limit(judge_constants.no_crossing_limit, judge_constants.no_crossing_noise),
              .place = end_of(body(guilty.stroke), guilty.end)});
       }

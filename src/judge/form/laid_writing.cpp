@@ -19,9 +19,9 @@ using detail::judge_constants;
 
 constexpr int rounds = 6;
 constexpr double least_side = 1e-6;       // [em]
-// Stretch for each stroke but the first: a lone arch must not be flattened into a straight stroke, and of a few strokes
-// one that is out of place would be stretched there with the others.
-constexpr double stretch_by_stroke = 0.05;
+// Greatest stretch of a single stroke, and how much more with each other: a lone arch must not be flattened into a straight
+// stroke, nor a stroke that is out of place among a few be excused by them.
+constexpr double least_stretch = 1.01, stretch_by_stroke = 0.05;
 
 /// The nearest map that turns and stretches within the limits; none for a reflection.
 std::optional<Eigen::Matrix2d> limited(const Eigen::Matrix2d& linear, double max_stretch) {
@@ -67,7 +67,8 @@ double LaidWriting::mean_residual() const {
 double LaidWriting::median_residual() const { return median_of(residuals); }
 
 LaidWriting lay_on(std::span<const FormLine> strokes, std::span<const FormLine> written) {
-  const double max_stretch = std::min(judge_constants.max_box_stretch, 1.0 + stretch_by_stroke * static_cast<double>(strokes.size() - 1) + 0.01);
+  const double max_stretch = std::min(judge_constants.max_box_stretch,
+                                      least_stretch + stretch_by_stroke * static_cast<double>(strokes.size() - 1));
   const Point to_box = box_of_lines(strokes).sizes(), from_box = box_of_lines(written).sizes();
   const double scale = std::max(to_box.maxCoeff(), least_side) / std::max(from_box.maxCoeff(), least_side);
   const Point scales = to_box.cwiseQuotient(from_box.cwiseMax(Point::Constant(least_side)));
