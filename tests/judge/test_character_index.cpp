@@ -132,8 +132,10 @@ TEST_CASE("another character of as many strokes is told, and nothing else", "[ju
       if (asked.stroke_count() != written.stroke_count()) continue;
       CAPTURE(encode_utf8(asked.code), encode_utf8(written.code));
       // Where one crossing makes the other character, that is what is told.
-      const bool crosses = (asked.code == U'刀' && written.code == U'力') || (asked.code == U'乃' && written.code == U'力');
-      const std::string expected = (crosses ? "crossing " : "character ") + encode_utf8(written.code);
+      const auto is = [&](char32_t one, char32_t other) { return asked.code == one && written.code == other; };
+      const bool crosses = is(U'刀', U'力') || is(U'乃', U'力'), does_not = is(U'力', U'刀') || is(U'力', U'乃');
+      const std::string kind = crosses ? "crossing " : (does_not ? "no crossing " : "character ");
+      const std::string expected = kind + encode_utf8(written.code);
       CHECK(told(asked, copy, index) == (asked.code == written.code ? "" : expected));
       ++pairs;
     }
