@@ -180,8 +180,8 @@ TEST_CASE("a fault is told by a remark of its kind that names its stroke, and by
 }
 
 TEST_CASE("each fault of form in middle lines and in people's pens is told, and no form of right ones", "[judge]") {
-  // Least share that is told [%], by regression: the figures of thousands are in docs/practice.md. Of two to four strokes,
-  // as most built-in characters have, nobody can say which one is out of place.
+  // Least share that is told [%], by regression: the figures of thousands are in docs/practice.md. Of two to four
+  // strokes, as most built-in characters have, nobody can say which one is out of place.
   struct Mark {
     const char* row;
     double percent;

@@ -860,7 +860,7 @@ typedef struct calligraphy_remark {
   int32_t end;               ///< a calligraphy_stroke_end: that end of `stroke` which crosses or does not reach
   int32_t orientation;       ///< how the writing lies, one of calligraphy_orientation
   double amount;             ///< by how much it is off, of form; NaN where that cannot be measured [em]
-  double offset[2];          ///< of a stroke: from its place to where it is; of an end: from the other stroke to it [em]
+  double offset[2];          ///< of a stroke: from its place to where it is; of an end: from the other stroke [em]
 } calligraphy_remark;
 
 /// Number of languages of texts for people.

@@ -8,7 +8,7 @@ struct JudgeTolerances {
   /// Minimum StrokeRemark::evidence of a remark. It does not affect how the writing is read, so a lower value gives the
   /// same remarks and more [1].
   double evidence = 1.0;
-  /// Whether form is judged too: otherwise there are no remarks of form (is_of_form()), which saves about half of the time.
+  /// Whether form is judged too: otherwise there are no remarks of form (is_of_form()), which saves half of the time.
   bool form = true;
 
   /// Whether all tolerances are equal.

@@ -59,7 +59,8 @@ enum class WritingOrientation {
   mirrored_right,  ///< mirrored, then turned right
 };
 
-/// "upright", "mirrored", "upside down", "half turned", "turned left", "turned right", "mirrored left", "mirrored right".
+/// "upright", "mirrored", "upside down", "half turned", "turned left", "turned right", "mirrored left",
+/// "mirrored right".
 const char* to_string(WritingOrientation orientation) noexcept;
 
 /// An end of a stroke.
@@ -83,14 +84,14 @@ struct StrokeRemark {
   Point place = Point::Zero();   ///< where to point: on the writing, or where a missing stroke belongs beside it [em]
   /// How sure or how grave it is: from 1 on JudgeTolerances::normal() includes it; infinite: always included [1].
   double evidence = std::numeric_limits<double>::infinity();
-  /// DrawnStroke::length; of `length`, that over the length that it should have beside the others; NaN where it does not
-  /// matter [1].
+  /// DrawnStroke::length; of `length`, that over the length that it should have beside the others; NaN where it does
+  /// not matter [1].
   double length = std::numeric_limits<double>::quiet_NaN();
   WritingDirection direction = WritingDirection::unknown;    ///< DrawnStroke::direction, where it matters
   StrokeEnd end = StrokeEnd::none;                           ///< the end of `stroke` that crosses or does not reach
-  /// By how much it is off, of form: how far a stroke goes beyond another, ends before it, or is out of place; by how much
-  /// a gap between strokes is too small, or a stroke is longer than the one that should be; the bow that a stroke has or
-  /// lacks; the length of its hook. NaN where that cannot be measured, as of the whole [em].
+  /// By how much it is off, of form: how far a stroke goes beyond another, ends before it, or is out of place; by how
+  /// much a gap between strokes is too small, or a stroke is longer than the one that should be; the bow that a stroke
+  /// has or lacks; the length of its hook. NaN where that cannot be measured, as of the whole [em].
   double amount = std::numeric_limits<double>::quiet_NaN();
   /// Of a stroke out of place: from its place to where it is; of an end that crosses, does not cross or does not reach
   /// another stroke: from that stroke to the end [em].

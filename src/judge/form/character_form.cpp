@@ -102,8 +102,9 @@ CharacterForm::CharacterForm(const Character& character) {
       if (are_straight && std::abs(u.dot(v)) < clearly_across * u.norm() * v.norm()) continue;
       Beside aside = beside(one, other);
       const double longer_by = one.length() - other.length();
-      if (i < j && std::abs(u.dot(v)) > least_parallel * u.norm() * v.norm() && std::abs(longer_by) > least_difference &&
-          are_straight && share_of(aside.count) > least_share_parallel && least_distance(one, other) < farthest_parallel) {
+      const bool are_parallel = are_straight && std::abs(u.dot(v)) > least_parallel * u.norm() * v.norm();
+      if (i < j && are_parallel && std::abs(longer_by) > least_difference &&
+          share_of(aside.count) > least_share_parallel && least_distance(one, other) < farthest_parallel) {
         parallels.push_back({i, j, longer_by});
       }
       if (share_of(aside.count) >= least_share_beside && aside.parallel > least_parallel_neighbours &&

@@ -21,7 +21,7 @@ constexpr double stub = 0.03;                                      // depth up t
 constexpr double least_depth = 0.08;                               // of a crossing that must not be lacking [em]
 constexpr double met_distance = 0.06;                              // of an end that still lies on a stroke [em]
 constexpr double at_corner = 0.03, off_corner = 0.05, in_course = 0.08, longest_corner = 0.2;  // tails [em]
-constexpr double closer = 0.6;                   // gap over that of the character below which strokes come too close [1]
+constexpr double closer = 0.6;  // gap, over that of the character, below which strokes may be too close [1]
 constexpr double least_bow = 0.05, kept_bend = 0.3;   // bow of a bent stroke [em], and share of it that is enough [1]
 constexpr double least_lacking = 0.03;                // bow of a stroke that counts as straight with the others [em]
 constexpr double most_bent = 0.2, free_bow = 0.08;    // bows over lengths [1]
@@ -31,7 +31,7 @@ constexpr double least_left_out = 0.1;  // length of a stroke of which only a pa
 constexpr double most_evident = 10.0;   // evidence of a bend: the chord of a ring has no length [1]
 constexpr double one_sided = 0.4;  // mean distance from the chord, over the largest, of a bend rather than waves [1]
 constexpr double shortest_shaped = 0.12, shortest_drawn = 0.1;  // strokes that have a shape [em]
-constexpr double full_bend_length = 0.3, full_wave_length = 0.4;  // lengths from which a bend or a wave counts in full [em]
+constexpr double full_bend_length = 0.3, full_wave_length = 0.4;  // lengths from which they count in full [em]
 constexpr double least_length_change = 0.3, least_length_difference = 0.2;  // logarithm [1], and [em]
 constexpr double shifted_alike = 0.7;  // difference of the offsets of both ends, over that of the stroke [1]
 constexpr double least_longer = 0.1;                                         // of the wrong stroke [em]
@@ -152,7 +152,7 @@ class FormFaults {
   };
 
   /// Which of the four ends moved so far outwards (way: 1) or inwards (-1) from its place that it made or lost a
-  /// crossing: the one whose motion is the greatest share of its tail; if none moved clearly, that of the shortest tail.
+  /// crossing: the one whose motion is the greatest share of its tail; if none moved clearly, that of the shortest.
   GuiltyEnd end_that_moved(std::size_t one, std::size_t other, const DeepCrossing& crossing, double way) const {
     GuiltyEnd guilty = crossing.is_of_one ? GuiltyEnd{one, other, crossing.end} : GuiltyEnd{other, one, crossing.end};
     double most = least_motion;

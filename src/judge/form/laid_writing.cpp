@@ -19,8 +19,8 @@ using detail::judge_constants;
 
 constexpr int rounds = 6;
 constexpr double least_side = 1e-6;       // [em]
-// Greatest stretch of a single stroke, and how much more with each other: a lone arch must not be flattened into a straight
-// stroke, nor a stroke that is out of place among a few be excused by them.
+// Greatest stretch of a single stroke, and how much more with each other: a lone arch must not be flattened into a
+// straight stroke, nor a stroke that is out of place among a few be excused by them.
 constexpr double least_stretch = 1.01, stretch_by_stroke = 0.05;
 
 /// The nearest map that turns and stretches within the limits; none for a reflection.

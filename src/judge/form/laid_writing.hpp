@@ -25,8 +25,8 @@ double median_of(std::vector<double> values);
 
 /// Lays strokes on as many of a character by an affine map: weighted least squares, in which a stroke that is far off
 /// counts little (iterated, Huber's weights squared), drawn towards the map from box to box. It turns by at most 30
-/// degrees and stretches one axis against the other by at most 1.5, and few strokes less: a single one hardly. Each pair is in the same
-/// direction. There must be at least one pair.
+/// degrees and stretches one axis against the other by at most 1.5, and few strokes less: a single one hardly. Each pair
+/// is in the same direction. There must be at least one pair.
 LaidWriting lay_on(std::span<const FormLine> strokes, std::span<const FormLine> written);
 
 }  // namespace calligraphy

@@ -15,9 +15,9 @@ namespace {
 
 using detail::judge_constants;
 
-constexpr double flat_box = 0.25;  // shorter side of a box, over the longer, below which it is not stretched to a square [1]
+constexpr double flat_box = 0.25;  // side of a box, over the longer, below which it is not stretched [1]
 constexpr std::size_t orientations = 8;
-constexpr double shortest_way = 0.2, opposite = -0.7;  // between two parts [em], and cosine of ways in each other's place
+constexpr double shortest_way = 0.2, opposite = -0.7;  // between parts [em], and cosine of ways in each other's place
 constexpr double apart_share = -0.05, least_rest = 0.5;  // of two characters, over the size of the first [1]
 
 /// How to lay writing upright, by its orientation.
@@ -93,9 +93,8 @@ std::optional<WholeFault> orientation_of(std::span<const FormLine> strokes, std:
     return std::nullopt;
   }
   // What strokes in another order or direction explain as well is told as that.
-  if (free_residual(drawn, wanted) <= std::max(judge_constants.free_factor * least, least + judge_constants.free_margin)) {
-    return std::nullopt;
-  }
+  const double clearly = std::max(judge_constants.free_factor * least, least + judge_constants.free_margin);
+  if (free_residual(drawn, wanted) <= clearly) return std::nullopt;
   return WholeFault{StrokeRemarkKind::orientation, static_cast<WritingOrientation>(best)};
 }
 

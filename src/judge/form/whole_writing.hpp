@@ -19,8 +19,8 @@ struct WholeFault {
   std::size_t first_part = 0;  ///< number of strokes of the first part
 };
 
-/// Whether the writing is mirrored or turned, has more than one character, or has two parts in each other's place. Order
-/// and direction that explain it as well are no such fault. `paths` are the pen-downs in the order of writing.
+/// Whether the writing is mirrored or turned, has more than one character, or has two parts in each other's place.
+/// Order and direction that explain it as well are no such fault. `paths` are the pen-downs in the order of writing.
 std::optional<WholeFault> whole_fault(const CharacterForm& form, std::span<const PenPath> paths);
 
 }  // namespace calligraphy

@@ -5,12 +5,14 @@
 
 namespace calligraphy {
 
-WrittenForm written_form(const CharacterForm& form, std::span<const PenPath> paths, std::span<const DrawnStroke> drawn) {
+WrittenForm written_form(const CharacterForm& form, std::span<const PenPath> paths,
+                         std::span<const DrawnStroke> drawn) {
   std::vector<std::optional<FormLine>> lines(form.count());  // by stroke
   for (std::size_t path = 0; path < paths.size(); ++path) {
     const DrawnStroke& each = drawn[path];
     const bool is_continued = path + 1 < paths.size() && drawn[path + 1].continues;
-    if (each.stroke < 0 || each.stroke_count != 1 || each.also >= 0 || each.continues || is_continued || each.tap) continue;
+    const bool wrote_one = each.stroke >= 0 && each.stroke_count == 1 && each.also < 0;
+    if (!wrote_one || each.continues || is_continued || each.tap) continue;
     if (each.direction == WritingDirection::neither) continue;
     std::vector<Point> points = paths[path];
     if (each.direction == WritingDirection::backwards) std::reverse(points.begin(), points.end());

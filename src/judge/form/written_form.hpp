@@ -20,6 +20,7 @@ struct WrittenForm {
 };
 
 /// `drawn` says what each of the paths wrote. Joined and broken strokes are left out, and those of another shape.
-WrittenForm written_form(const CharacterForm& form, std::span<const PenPath> paths, std::span<const DrawnStroke> drawn);
+WrittenForm written_form(const CharacterForm& form, std::span<const PenPath> paths,
+                         std::span<const DrawnStroke> drawn);
 
 }  // namespace calligraphy

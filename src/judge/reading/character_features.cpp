@@ -17,7 +17,8 @@ constexpr Eigen::Index pieces_per_point = Outline::RowsAtCompileTime / points_in
 bool is_written(char32_t code) {
   const bool is_radical = code >= 0x2E80 && code < 0x2FE0, is_stroke = code >= 0x31C0 && code < 0x31F0;
   const bool is_component = code >= 0x9FA6 && code < 0x9FBC;  // of GB 18030
-  return !is_radical && !is_stroke && !is_component && !(code >= 0xF900 && code < 0xFB00) && !(code >= 0x2F800 && code < 0x2FA20);
+  const bool is_compatible = (code >= 0xF900 && code < 0xFB00) || (code >= 0x2F800 && code < 0x2FA20);
+  return !is_radical && !is_stroke && !is_component && !is_compatible;
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ std::optional<OtherCharacter> other_character(const CharacterFeatures& character
   CharacterFeatures::Neighbour nearest;
   Distances least, as_it_is;
   // Both turned upright as in the reading and as it is: the reading of another character may turn it wrongly.
-  for (const Eigen::Matrix2d& turn : {rotation_of(reading.costs->fit().linear), Eigen::Matrix2d(Eigen::Matrix2d::Identity())}) {
+  const Eigen::Matrix2d not_turned = Eigen::Matrix2d::Identity();
+  for (const Eigen::Matrix2d& turn : {rotation_of(reading.costs->fit().linear), not_turned}) {
     std::vector<Outline> drawn;
     for (const PenPath& path : paths) drawn.push_back(outline(path) * turn.transpose());
     const CharacterFeature writing = character_feature(drawn), read = as_read(writing, reading);
@@ -70,7 +71,8 @@ std::optional<OtherCharacter> other_character(const CharacterFeatures& character
     if (between < judge_constants.lookalike_distance) {
       return as_it_is.other < judge_constants.twin_share * from_asked_as_it_is;
     }
-    if (between >= judge_constants.twin_distance && least.other > judge_constants.stranger_share * from_asked) return false;
+    const bool is_stranger = between >= judge_constants.twin_distance;
+    if (is_stranger && least.other > judge_constants.stranger_share * from_asked) return false;
     const double past_middle = (from_asked * from_asked - least.other * least.other) / (2.0 * between);
     return past_middle > judge_constants.beyond_middle * 0.5 * between + doubt;
   };

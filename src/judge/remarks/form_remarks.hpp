@@ -11,9 +11,9 @@
 
 namespace calligraphy {
 
-/// The remarks on form, one for each fault, by pen-down. `drawn` says what each of the paths wrote, from which `written`
-/// was made. Which faults are one does not depend on `least`, the minimum evidence of a remark: a lower one gives the
-/// same remarks and more.
+/// The remarks on form, one for each fault, by pen-down. `drawn` says what each of the paths wrote, from which
+/// `written` was made. Which faults are one does not depend on `least`, the minimum evidence of a remark: a lower one
+/// gives the same remarks and more.
 std::vector<StrokeRemark> form_remarks(const CharacterForm& form, const WrittenForm& written,
                                        std::span<const DrawnStroke> drawn, double least);
 
