@@ -12,6 +12,7 @@
 #include "judge/pens/resemblance.hpp"
 #include "model/random_points.hpp"
 #include "polyline.hpp"
+#include "row_named.hpp"
 
 namespace calligraphy_test {
 
@@ -373,14 +374,7 @@ const std::vector<Corruption>& corruptions() {
   return all;
 }
 
-const Corruption& corruption_named(const std::string& name) {
-  for (const Corruption& each : corruptions()) {
-    if (each.name == name) return each;
-  }
-  std::string names;
-  for (const Corruption& each : corruptions()) names += " " + each.name;
-  throw ValueError("--row " + name + ": expected one of" + names);
-}
+const Corruption& corruption_named(const std::string& name) { return row_named(corruptions(), name); }
 
 std::optional<Corrupted> corrupt(const RightPen& pen, const Corruption& corruption, std::uint64_t seed,
                                  StrokeClass stroke_class) {

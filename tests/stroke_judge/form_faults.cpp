@@ -12,6 +12,7 @@
 #include "model/random_points.hpp"
 #include "model/stroke_ends.hpp"
 #include "polyline.hpp"
+#include "row_named.hpp"
 
 namespace calligraphy_test {
 
@@ -485,14 +486,7 @@ const std::vector<FormRow>& form_rows() {
   return all;
 }
 
-const FormRow& form_row_named(const std::string& name) {
-  for (const FormRow& each : form_rows()) {
-    if (each.name == name) return each;
-  }
-  std::string names;
-  for (const FormRow& each : form_rows()) names += " " + each.name;
-  throw ValueError("--row " + name + ": expected one of" + names);
-}
+const FormRow& form_row_named(const std::string& name) { return row_named(form_rows(), name); }
 
 std::optional<Malformed> malform(const RightPen& pen, const FormRow& row, std::uint64_t seed) {
   RandomPoints random(seed);

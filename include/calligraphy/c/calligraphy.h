@@ -804,7 +804,7 @@ typedef enum calligraphy_remark_kind {
   CALLIGRAPHY_REMARK_EXTRA = 6,      ///< a pen-down that matches no stroke of the character
   CALLIGRAPHY_REMARK_CHARACTER = 7,  ///< the writing is another character: then the only remark
   CALLIGRAPHY_REMARK_LOOKALIKE = 8,  ///< a note: the writing is nearer to a character that hardly differs from this one
-  // Of form. Of the first three, each is then the only remark.
+  // Of form. Each of the first four is then the only remark.
   CALLIGRAPHY_REMARK_UNREADABLE = 9,    ///< the writing cannot be read as this character
   CALLIGRAPHY_REMARK_ORIENTATION = 10,  ///< the writing is mirrored or turned
   CALLIGRAPHY_REMARK_SEVERAL = 11,      ///< more than one character was written

@@ -16,10 +16,10 @@ namespace calligraphy {
 /// A crossing of two lines by its tails, the parts of the two lines before and after it. The depth is the length of the
 /// shortest tail: a line that sticks out beyond another by x crosses it with the depth x, a corner with almost none.
 struct DeepCrossing {
-  double depth;                 ///< [em]
+  double depth;                   ///< [em]
   double share_one, share_other;  ///< places on the two lines, as shares of their lengths [1]
-  bool is_of_one;               ///< whether the shortest tail is one of the first line
-  StrokeEnd end;                ///< the end of that tail
+  bool is_of_one;                 ///< whether the shortest tail is one of the first line
+  StrokeEnd end;                  ///< the end of that tail
 };
 
 /// All crossings of two lines.
@@ -68,8 +68,8 @@ struct CharacterForm {
   }
 
   std::vector<FormLine> strokes;
-  std::vector<FormLine> bodies;                     ///< without their hooks
-  std::vector<std::optional<std::size_t>> hooks;    ///< index of the point where the hook of each stroke begins
+  std::vector<FormLine> bodies;                      ///< without their hooks
+  std::vector<std::optional<std::size_t>> hooks;     ///< index of the point where the hook of each stroke begins
   std::vector<std::vector<DeepCrossing>> crossings;  ///< of pairs, the first before the second in the order of writing
   std::vector<Meeting> meetings;
   std::vector<Neighbours> neighbours;

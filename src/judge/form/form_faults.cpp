@@ -36,8 +36,6 @@ constexpr double least_length_change = 0.3, least_length_difference = 0.2;  // l
 constexpr double shifted_alike = 0.7;  // difference of the offsets of both ends, over that of the stroke [1]
 constexpr double least_longer = 0.1;                                         // of the wrong stroke [em]
 
-double share_left(const Beside& now, double gap) { return gap / std::max(now.gap, 1e-6); }
-
 /// Whether a stroke ends about where it begins, as 〇 does: then it has no bow.
 bool is_ring(const FormLine& stroke) { return stroke.chord().norm() < ring * stroke.length(); }
 
@@ -276,7 +274,7 @@ class FormFaults {
       if (static_cast<double>(now.count) < 0.35 * static_cast<double>(each.beside.count)) continue;
       const double gap = each.beside.gap;
       if (now.gap < closer * gap) {
-        add_overlap(each.stroke, each.other, gap - now.gap, judge_constants.overlap_share * share_left(now, gap));
+        add_overlap(each.stroke, each.other, gap - now.gap, judge_constants.overlap_share * gap / std::max(now.gap, 1e-6));
       } else if (now.signed_gap * each.beside.signed_gap < 0.0 && now.parallel > 0.8 &&
                  std::abs(now.signed_gap) > 0.9 * now.gap && std::max(gap, now.gap) < 0.3) {
         const double across = now.gap + gap;
@@ -348,13 +346,11 @@ class FormFaults {
       }
     }
     if (straight.size() < 2) return;
-    Eigen::AlignedBox2d box;
-    for (const FormLine& each : laid_.lines) box.extend(each.box);
     add({.kind = FaultKind::straight,
          .stroke = 0,
          .amount = std::sqrt(lacking),
          .evidence = std::sqrt(lacking) / judge_constants.straight_limit,
-         .place = box.center(),
+         .place = box_of_lines(laid_.lines).center(),
          .straight = std::move(straight)});
   }
 

@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <vector>
-#include <vector>
 
 #include <calligraphy/judge/stroke_remark.hpp>
 

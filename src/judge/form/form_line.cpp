@@ -20,13 +20,11 @@ constexpr std::size_t smoothing = 8;   // eighths of a step on either side of a 
 constexpr std::size_t turn_reach = 3;  // points on either side over which a turn is measured
 constexpr double no_length = 1e-6;     // [em]
 
-double cross_product(const Point& one, const Point& other) { return one.x() * other.y() - one.y() * other.x(); }
-
 /// The turn at a point, positive to the left [rad].
 double turn_at(const FormLine& line, std::size_t i) {
   const Point before = line.points[i] - line.points[i - turn_reach];
   const Point after = line.points[i + turn_reach] - line.points[i];
-  return std::atan2(cross_product(before, after), before.dot(after));
+  return std::atan2(cross(before, after), before.dot(after));
 }
 
 }  // namespace
@@ -59,6 +57,12 @@ FormLine form_line(std::span<const Point> path) {
   return form_line(points);
 }
 
+Eigen::AlignedBox2d box_of_lines(std::span<const FormLine> lines) {
+  Eigen::AlignedBox2d box;
+  for (const FormLine& line : lines) box.extend(line.box);
+  return box;
+}
+
 std::vector<Crossing> crossings(const FormLine& one, const FormLine& other) {
   std::vector<Crossing> found;
   if (!one.box.intersects(other.box)) return found;
@@ -68,10 +72,10 @@ std::vector<Crossing> crossings(const FormLine& one, const FormLine& other) {
     if ((low.array() > other.box.max().array()).any() || (high.array() < other.box.min().array()).any()) continue;
     for (std::size_t j = 0; j + 1 < form_points; ++j) {
       const Point other_step = other.points[j + 1] - other.points[j];
-      const double area = cross_product(step, other_step);
+      const double area = cross(step, other_step);
       if (std::abs(area) <= 1e-12) continue;
       const Point between = other.points[j] - from;
-      const double t = cross_product(between, other_step) / area, u = cross_product(between, step) / area;
+      const double t = cross(between, other_step) / area, u = cross(between, step) / area;
       if (t < 0.0 || t > 1.0 || u < 0.0 || u > 1.0) continue;
       found.push_back({one.along[i] + t * (one.along[i + 1] - one.along[i]),
                        other.along[j] + u * (other.along[j + 1] - other.along[j])});
@@ -88,7 +92,7 @@ NearestPlace nearest_place(const Point& point, const FormLine& line) {
     const Point off = from - t * step;
     const double distance = off.squaredNorm();
     if (distance >= nearest.distance) continue;
-    const double area = cross_product(step, off);
+    const double area = cross(step, off);
     nearest = {distance, line.along[i] + t * (line.along[i + 1] - line.along[i]),
                area > 0.0 ? 1.0 : (area < 0.0 ? -1.0 : 0.0), line.points[i] + t * step};
   }
@@ -110,7 +114,7 @@ std::array<double, form_points> offsets(const FormLine& line) {
   const double length = chord.norm();
   std::array<double, form_points> found = {};
   for (std::size_t i = 0; i < form_points && length >= no_length; ++i) {
-    found[i] = cross_product(chord, line.points[i] - line.points.front()) / length;
+    found[i] = cross(chord, line.points[i] - line.points.front()) / length;
   }
   return found;
 }

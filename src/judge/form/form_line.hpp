@@ -24,14 +24,17 @@ struct FormLine {
 
   double length() const { return along.back(); }
   Point centre() const;
-  /// The middle of the longest distance that two ends can have: from the first point to the last.
+  /// From the first point to the last.
   Point chord() const { return points.back() - points.front(); }
 };
 
-/// The line of a path with at least one point.
+/// The line of a path with at least one point; each point is a mean over a step either way, which takes out tremor.
 FormLine form_line(std::span<const Point> path);
 /// That of given points, to which a map was applied, for example.
 FormLine form_line(const std::array<Point, form_points>& points);
+
+/// The box of several lines; empty if there are none.
+Eigen::AlignedBox2d box_of_lines(std::span<const FormLine> lines);
 
 /// Where two lines cross, as lengths along them [em].
 struct Crossing {
@@ -43,10 +46,10 @@ std::vector<Crossing> crossings(const FormLine& one, const FormLine& other);
 
 /// The place on a line that is nearest to a point.
 struct NearestPlace {
-  double distance;       ///< [em]
-  double along;          ///< length along the line [em]
-  double side;           ///< 1 to the left of the line, -1 to its right, 0 on it
-  Point point;           ///< the place
+  double distance;  ///< [em]
+  double along;     ///< length along the line [em]
+  double side;      ///< 1 to the left of the line, -1 to its right, 0 on it
+  Point point;      ///< the place
 };
 
 NearestPlace nearest_place(const Point& point, const FormLine& line);

@@ -39,12 +39,6 @@ std::optional<Eigen::Matrix2d> limited(const Eigen::Matrix2d& linear, double max
   return Eigen::Rotation2Dd(change) * svd.matrixU() * scales.asDiagonal() * svd.matrixV().transpose();
 }
 
-Eigen::AlignedBox2d box_of_lines(std::span<const FormLine> lines) {
-  Eigen::AlignedBox2d box;
-  for (const FormLine& line : lines) box.extend(line.box);
-  return box;
-}
-
 double mean_distance_between(const FormLine& one, const FormLine& other) {
   double sum = 0.0;
   for (std::size_t k = 0; k < form_points; ++k) sum += (one.points[k] - other.points[k]).norm();

@@ -39,8 +39,7 @@ const std::array<Eigen::Matrix2d, orientations>& upright_maps() {
 
 /// The outlines of lines in a box of side 1 about 0.
 std::vector<Outline> boxed(std::span<const FormLine> lines) {
-  Eigen::AlignedBox2d box;
-  for (const FormLine& line : lines) box.extend(line.box);
+  const Eigen::AlignedBox2d box = box_of_lines(lines);
   const double longest = std::max(box.sizes().maxCoeff(), 1e-6);
   const Point sides = box.sizes().cwiseMax(Point::Constant(flat_box * longest)), centre = box.center();
   std::vector<Outline> outlines;
@@ -76,12 +75,6 @@ double free_residual(std::span<const Outline> written, std::span<const Outline> 
   return sum / static_cast<double>(wanted.size());
 }
 
-Eigen::AlignedBox2d box_around(std::span<const FormLine> lines) {
-  Eigen::AlignedBox2d box;
-  for (const FormLine& line : lines) box.extend(line.box);
-  return box;
-}
-
 std::optional<WholeFault> orientation_of(std::span<const FormLine> strokes, std::span<const FormLine> written) {
   const std::vector<Outline> wanted = boxed(strokes), drawn = boxed(written);
   std::array<double, orientations> residuals;
@@ -102,12 +95,12 @@ std::optional<WholeFault> orientation_of(std::span<const FormLine> strokes, std:
 std::optional<WholeFault> exchanged_parts(std::span<const FormLine> strokes, std::span<const FormLine> written) {
   const std::size_t n = strokes.size();
   if (n < 4) return std::nullopt;
-  const double size = box_around(written).sizes().maxCoeff() / std::max(box_around(strokes).sizes().maxCoeff(), 1e-6);
+  const double size = box_of_lines(written).sizes().maxCoeff() / std::max(box_of_lines(strokes).sizes().maxCoeff(), 1e-6);
   double least = std::numeric_limits<double>::infinity();
   std::size_t first_part = 0;
   for (std::size_t cut = 2; cut + 1 < n; ++cut) {
-    const Point wanted = box_around(strokes.subspan(cut)).center() - box_around(strokes.first(cut)).center();
-    const Point drawn = box_around(written.subspan(cut)).center() - box_around(written.first(cut)).center();
+    const Point wanted = box_of_lines(strokes.subspan(cut)).center() - box_of_lines(strokes.first(cut)).center();
+    const Point drawn = box_of_lines(written.subspan(cut)).center() - box_of_lines(written.first(cut)).center();
     if (std::min(wanted.norm(), drawn.norm() / std::max(size, 1e-6)) < shortest_way) continue;
     if (wanted.dot(drawn) > opposite * wanted.norm() * drawn.norm()) continue;
     const LaidWriting one = lay_on(strokes.first(cut), written.first(cut));
@@ -131,7 +124,7 @@ std::optional<WholeFault> several_characters(std::span<const FormLine> strokes, 
   for (const std::size_t first : {std::size_t{0}, written.size() - n}) {
     const std::span<const FormLine> mine = written.subspan(first, n);
     const std::span<const FormLine> rest = first == 0 ? written.subspan(n) : written.first(first);
-    const Eigen::AlignedBox2d box = box_around(mine), other = box_around(rest);
+    const Eigen::AlignedBox2d box = box_of_lines(mine), other = box_of_lines(rest);
     const double size = box.sizes().maxCoeff();
     const double apart = std::max((other.min() - box.max()).maxCoeff(), (box.min() - other.max()).maxCoeff());
     if (apart <= apart_share * size || other.sizes().maxCoeff() <= least_rest * size) continue;

@@ -11,6 +11,9 @@
 
 namespace calligraphy {
 
+/// The cross product of two vectors: positive if the second points to the left of the first.
+inline double cross(const Point& one, const Point& other) { return one.x() * other.y() - one.y() * other.x(); }
+
 /// Two or more points at even steps over the first `length` of a path, ends included. The path has at least one point,
 /// where all of them lie if it has no length.
 std::vector<Point> points_along(std::span<const Point> path, double length, std::size_t count);

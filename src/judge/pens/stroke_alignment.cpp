@@ -23,8 +23,6 @@ constexpr double max_slant = 0.35;  // 20 degrees [rad]
 /// Step by which an optimal alignment reached a pair of points.
 enum class Move : std::uint8_t { begin, both, path, line };
 
-double cross(const Point& one, const Point& other) { return one.x() * other.y() - one.y() * other.x(); }
-
 struct Placed {
   Alignment alignment;
   Point path_mean = Point::Zero(), line_mean = Point::Zero();  ///< means over the pairs of points
