@@ -7,8 +7,8 @@ namespace calligraphy::detail {
 
 /// Unless a line names another source, a value was chosen with stroke_judge on the half of the characters that `--half
 /// choosing` takes (docs/practice.md, "How often the remarks are right"). All are doubles, so that one table of names
-/// covers them. Elsewhere are sizes of arrays, the public tap_length and JudgeTolerances, and in judge/form what makes a
-/// relation, a bend or a ring at all.
+/// covers them. Elsewhere are sizes of arrays, the public tap_length and JudgeTolerances, and in judge/form what makes
+/// a relation, a bend or a ring at all.
 struct JudgeConstants {
   // Reading: which pen-downs wrote which strokes.
   double pen_spacing = 0.005;        ///< least spacing of points kept, above a resting pen's noise (CHANGELOG.md) [em]

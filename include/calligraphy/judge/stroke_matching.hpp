@@ -30,10 +30,11 @@ struct MatchResult {
 /// is then the mean distance between points at equal shares of the two lengths, forwards or backwards, plus a penalty
 /// for the angle between them. A pen-down that resembles no stroke is extra; a stroke that no pen-down resembles is
 /// missing; a pen-down that resembles several consecutive strokes, or two others, has joined them; two or three
-/// pen-downs in a row that resemble one stroke together have broken it. An order other than the standard one is believed
-/// only where it fits better by twice the mean cost of this hand, or by a factor of 2; a stroke runs forwards within 60
-/// degrees. Then form is judged: how the strokes meet, cross and lie beside each other, their bends and places, and
-/// before that whether the writing can be read at all, is mirrored or turned. For the steps and the bounds, and how often they are right, see docs/practice.md.
+/// pen-downs in a row that resemble one stroke together have broken it. An order other than the standard one is
+/// believed only where it fits better by twice the mean cost of this hand, or by a factor of 2; a stroke runs forwards
+/// within 60 degrees. Then form is judged: how the strokes meet, cross and lie beside each other, their bends and
+/// places, and before that whether the writing can be read at all, is mirrored or turned. For the steps and the bounds,
+/// and how often they are right, see docs/practice.md.
 /// O(readings paths strokes).
 ///
 /// `tolerances.evidence` selects which remarks are made: those of JudgeTolerances::strict() include those of normal(),
@@ -49,8 +50,8 @@ MatchResult match_strokes(const Character& character, std::span<const PenPath> p
 /// The same with several accepted stroke orders or forms of one character, as from CharacterSet::forms(): of those that
 /// fit about equally well, the one with the fewest remarks is chosen. The price of a form is the cost of its reading
 /// plus, for each stroke or block out of order, twice the mean cost of this hand or 3 % of the em, whichever is more;
-/// forms up to 1.25 times the least price fit about equally well, and up to 1.75 times those of as many strokes as there
-/// are pen-downs that leave nothing to remark of these. Of forms with as many remarks, fewer of form decide.
+/// forms up to 1.25 times the least price fit about equally well, and up to 1.75 times those of as many strokes as
+/// there are pen-downs that leave nothing to remark of these. Of forms with as many remarks, fewer of form decide.
 /// @throws ValueError also when there is no form, or they belong to different characters
 MatchResult match_strokes(std::span<const Character> accepted, std::span<const PenPath> paths,
                           const JudgeTolerances& tolerances = {}, const CharacterIndex* others = nullptr);

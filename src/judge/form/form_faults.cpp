@@ -274,7 +274,8 @@ class FormFaults {
       if (static_cast<double>(now.count) < 0.35 * static_cast<double>(each.beside.count)) continue;
       const double gap = each.beside.gap;
       if (now.gap < closer * gap) {
-        add_overlap(each.stroke, each.other, gap - now.gap, judge_constants.overlap_share * gap / std::max(now.gap, 1e-6));
+        const double share = judge_constants.overlap_share * gap / std::max(now.gap, 1e-6);
+        add_overlap(each.stroke, each.other, gap - now.gap, share);
       } else if (now.signed_gap * each.beside.signed_gap < 0.0 && now.parallel > 0.8 &&
                  std::abs(now.signed_gap) > 0.9 * now.gap && std::max(gap, now.gap) < 0.3) {
         const double across = now.gap + gap;

@@ -95,7 +95,8 @@ std::optional<WholeFault> orientation_of(std::span<const FormLine> strokes, std:
 std::optional<WholeFault> exchanged_parts(std::span<const FormLine> strokes, std::span<const FormLine> written) {
   const std::size_t n = strokes.size();
   if (n < 4) return std::nullopt;
-  const double size = box_of_lines(written).sizes().maxCoeff() / std::max(box_of_lines(strokes).sizes().maxCoeff(), 1e-6);
+  const double drawn_size = box_of_lines(written).sizes().maxCoeff();
+  const double size = drawn_size / std::max(box_of_lines(strokes).sizes().maxCoeff(), 1e-6);
   double least = std::numeric_limits<double>::infinity();
   std::size_t first_part = 0;
   for (std::size_t cut = 2; cut + 1 < n; ++cut) {
