@@ -150,6 +150,20 @@ Attempts part_of_stroke(double from, double to, double shortest) {
   };
 }
 
+Attempts going_on(const Attempts& attempts) {
+  return [=](const std::vector<StrokeLine>& lines, std::size_t due, Random& random) {
+    std::vector<Attempt> followed = attempts(lines, due, random);
+    for (Attempt& attempt : followed) attempt.goes_on = true;
+    return followed;
+  };
+}
+
+Attempts backwards() {
+  return [](const std::vector<StrokeLine>& lines, std::size_t due, Random&) {
+    return std::vector<Attempt>{{lines[due].reversed()}};
+  };
+}
+
 Attempts doubled_back(double share) {
   return [=](const std::vector<StrokeLine>& lines, std::size_t due, Random&) {
     std::vector<Point> points = lines[due].part(0.0, share).points();
@@ -197,6 +211,45 @@ Attempts zigzags(double em, double amplitude, bool sine) {
       for (const bool at_extreme : {false, true}) {
         attempts.push_back(
             {zigzag_about(lines[due], {amplitude, wavelength, sine, at_extreme}, em), lines[due].length() / em});
+      }
+    }
+    return attempts;
+  };
+}
+
+Attempts tremors(double em) {
+  return [=](const std::vector<StrokeLine>& lines, std::size_t due, Random&) {
+    std::vector<Attempt> attempts;
+    if (lines[due].length() >= shortest_line * em) return attempts;
+    for (const double amplitude : {0.02, 0.03, 0.04}) {
+      for (const double wavelength : {0.03, 0.05}) {
+        attempts.push_back({zigzag_about(lines[due], {amplitude, wavelength, true}, em), lines[due].length() / em});
+      }
+    }
+    return attempts;
+  };
+}
+
+StrokeLine loops_along(const StrokeLine& line, double radius, bool clockwise, double em) {
+  constexpr int steps = 48;  // per loop
+  const int loops = std::max(3, static_cast<int>(std::lround(line.length() / (2.0 * radius * em))));
+  std::vector<Point> points;
+  for (int i = 0; i <= loops * steps; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / steps * (clockwise ? -1.0 : 1.0);
+    const Point centre = line.at(line.length() * i / (loops * steps));
+    points.push_back(centre + radius * em * Point(std::cos(angle), std::sin(angle)));
+  }
+  return StrokeLine(std::move(points));
+}
+
+Attempts circling(double em, bool along_short) {
+  return [=](const std::vector<StrokeLine>& lines, std::size_t due, Random&) {
+    const StrokeLine& line = lines[due];
+    std::vector<Attempt> attempts;
+    if ((line.length() < shortest_line * em) != along_short) return attempts;
+    for (const double radius : {0.03, 0.05}) {
+      for (const bool clockwise : {false, true}) {
+        attempts.push_back({loops_along(line, radius, clockwise, em), line.length() / em});
       }
     }
     return attempts;

@@ -40,6 +40,7 @@ std::vector<StrokeLine> drawn_by_people(const std::vector<StrokeLine>& lines, co
 struct Attempt {
   StrokeLine line;
   double figure = 0.0;  ///< how different it is, or how long the stroke, where that is of interest [em]
+  bool goes_on = false;  ///< the exact next stroke is drawn after it, as by one who takes the due stroke for written
 };
 
 /// What is drawn for a due stroke, all of them in turn.
@@ -52,6 +53,12 @@ Attempts later_strokes(double em, double noise = 0.0, double different = 0.05);
 
 /// The part between two shares of the length, of strokes that are at least `shortest` long [m].
 Attempts part_of_stroke(double from, double to, double shortest = 0.0);
+
+/// The same lines, each with the exact next stroke after it.
+Attempts going_on(const Attempts& attempts);
+
+/// From the end to the start.
+Attempts backwards();
 
 /// To a share of the length, and back to the start.
 Attempts doubled_back(double share);
@@ -72,5 +79,17 @@ struct Zigzag {
 StrokeLine zigzag_about(const StrokeLine& line, const Zigzag& zigzag, double em);
 /// Of four wavelengths, 0.1 to 0.5 em, each beginning on the stroke and at an extreme.
 Attempts zigzags(double em, double amplitude, bool sine);
+
+inline constexpr double shortest_line = 0.2;  ///< shorter strokes are called short [em]
+
+/// About short strokes, a tremor that goes farther aside than the stroke is thick: sine waves of 0.02, 0.03 and 0.04 em
+/// on wavelengths of 0.03 and 0.05 em, six in all.
+Attempts tremors(double em);
+
+/// Loops of this radius whose centre goes along the stroke: one per two radii of the way, so that they overlap, and at
+/// least three. [em]
+StrokeLine loops_along(const StrokeLine& line, double radius, bool clockwise, double em);
+/// Of radii of 0.03 and 0.05 em, either way, four in all: along short strokes, or along the others.
+Attempts circling(double em, bool along_short);
 
 }  // namespace calligraphy_test

@@ -38,6 +38,11 @@ constexpr const char* usage =
     "           characters; --half: of those, the half on which the constants were chosen, or the other; --held: a\n"
     "           pen in a hand, or else one that is where it is meant to be; --naive: in a hand that leaves the\n"
     "           device's friction to the spring of its grip\n"
+    "       guidance_judge people [--traces DIR:DIR...] [--half choosing|printed] [--characters N] [--em MM]\n"
+    "                             [--tolerances lenient|normal|strict]\n"
+    "           people's strokes, drawn as they wrote them: of the traces CALLIGRAPHY_ALL_PEN_TRACES that are right\n"
+    "           for a character of the sets CALLIGRAPHY_CHARACTER_FILE and CALLIGRAPHY_KANJI_FILE; --half: by the code\n"
+    "           of the character, printed are the odd ones\n"
     "       guidance_judge wrong_end [--strokes N] [--device NAME|all] [--renderer default|everything] [--em MM]\n"
     "           strokes of the built-in characters, drawn from their ends: whether force resists\n"
     "       guidance_judge everything [--times N] [--device NAME|all] [--text CHARACTERS|all] [--em MM]\n"
@@ -242,6 +247,7 @@ int run(const std::string& command, Arguments& arguments) {
   if (command == "releases") return releases(arguments);
   if (command == "everything") return everything(arguments);
   if (command == "sequence") return sequence(arguments);
+  if (command == "people") return people(arguments);
   if (command == "wrong_end") return wrong_end(arguments);
   return 2;
 }

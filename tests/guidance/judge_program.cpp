@@ -25,6 +25,13 @@ RendererOptions renderer_of(const std::string& name, const Capabilities& device)
   throw ValueError("--renderer " + name + ": expected default or everything");
 }
 
+StrokeTolerances tolerances_of(const std::string& name) {
+  if (name == "lenient") return StrokeTolerances::lenient();
+  if (name == "normal") return StrokeTolerances::normal();
+  if (name == "strict") return StrokeTolerances::strict();
+  throw ValueError("--tolerances " + name + ": expected lenient, normal or strict");
+}
+
 std::vector<Capabilities> devices_of(const std::string& name) {
   const auto profiles = device_profiles();
   if (name == "all") return {profiles.begin(), profiles.end()};

@@ -16,13 +16,6 @@ using namespace calligraphy;
 
 namespace {
 
-StrokeTolerances tolerances_of(const std::string& name) {
-  if (name == "lenient") return StrokeTolerances::lenient();
-  if (name == "normal") return StrokeTolerances::normal();
-  if (name == "strict") return StrokeTolerances::strict();
-  throw ValueError("--tolerances " + name + ": expected lenient, normal or strict");
-}
-
 bool is_of_half(const Character& character, const std::string& half) {
   if (half.empty()) return true;
   if (half != "choosing" && half != "printed") throw ValueError("--half " + half + ": expected choosing or printed");
@@ -121,11 +114,17 @@ class SequenceProgram {
     judge("the first half", part_of_stroke(0.0, 0.5));
     judge("the middle half", part_of_stroke(0.25, 0.75));
     judge("the second half", part_of_stroke(0.5, 1.0));
-    judge("the first 65 %", part_of_stroke(0.0, 0.65));
-    judge("the last 65 %", part_of_stroke(0.35, 1.0));
+    judge_part("the first 58 %", part_of_stroke(0.0, 0.58));
+    judge("the last 58 %", part_of_stroke(0.42, 1.0));
+    judge_part("the first 65 %", part_of_stroke(0.0, 0.65));
+    judge_part("the last 65 %", part_of_stroke(0.35, 1.0));
     judge("the first 80 %", part_of_stroke(0.0, 0.8));
-    judge("the first 80 % of strokes of 0.4 em and longer", part_of_stroke(0.0, 0.8, 0.4 * em));
+    judge_part("the first 80 % of strokes of 0.4 em and longer", part_of_stroke(0.0, 0.8, 0.4 * em));
+    judge("from the end to the start", backwards());
     judge("to the middle and back", doubled_back(0.5));
+    judge("one of 6 tremors of +-2 to 4 % of the em, strokes < 0.2 em", tremors(em), "length");
+    judge("one of 4 circlings of radius 3 or 5 % of the em, strokes < 0.2 em", circling(em, true), "length");
+    judge("one of 4 circlings of radius 3 or 5 %, strokes of 0.2 em and longer", circling(em, false), "length");
     judge("one of 8 sine waves of +-10 % of the em", zigzags(em, 0.1, true), "length");
     judge("one of 8 zigzags of +-10 % of the em", zigzags(em, 0.1, false), "length");
     judge("one of 8 sine waves of +-7 % of the em", zigzags(em, 0.07, true));
@@ -138,17 +137,26 @@ class SequenceProgram {
     print(name, judge_attempts(characters_, options_, attempts, progress()), figure);
   }
 
+  /// By itself, and with the exact next stroke after it.
+  void judge_part(const std::string& name, const Attempts& attempts) {
+    judge(name, attempts);
+    judge(name + ", the exact next stroke follows", going_on(attempts));
+  }
+
   /// `figure`: what that of a finding says; the worst are shown.
   void print(const std::string& what, SequenceResult result, const char* figure) const {
     ClusteredMean share;
     for (std::size_t i = 0; i < result.by_character.size(); ++i) {
       for (int k = 0; k < result.by_character[i].of; ++k) share.add(i, k < result.by_character[i].count ? 1.0 : 0.0);
     }
-    std::printf("%-66s %6d of %6d (%6.2f +- %.2f %%)", what.c_str(), result.taken.count, result.taken.of,
+    std::printf("%-80s %6d of %6d (%6.2f +- %.2f %%)", what.c_str(), result.taken.count, result.taken.of,
                 result.taken.percent(), 100.0 * share.half_width());
     if (result.tries.of > result.taken.of) std::printf(", %.2f %% of %d", result.tries.percent(), result.tries.of);
     if (result.not_finished_exactly > 0) {
       std::printf("; broken off, because a stroke drawn exactly was not finished: %d", result.not_finished_exactly);
+    }
+    if (result.taken_for_next > 0) {
+      std::printf("; drawn exactly after it, taken for the next stroke: %d", result.taken_for_next);
     }
     std::printf("\n");
     std::sort(result.findings.begin(), result.findings.end(),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "scene.hpp"
@@ -48,13 +49,27 @@ Pen::Pen(const PracticePage& page, const Capabilities& device, const RendererOpt
     : renderer_(page.characters, upright_page(page.width, page.height), device, options),
       period_(1.0 / renderer_.options().servo_rate) {
   intended_.head<2>() = Point(0.5 * page.width, 0.5 * page.height);
+  for (const PlacedCharacter& placed : page.characters) {
+    stroke_counts_.push_back(static_cast<std::size_t>(placed.character.stroke_count()));
+  }
+}
+
+std::size_t Pen::written() const {
+  const auto character = static_cast<std::size_t>(last().character);
+  const auto begin = stroke_counts_.begin(), end = begin + static_cast<std::ptrdiff_t>(character);
+  const std::size_t before = std::accumulate(begin, end, std::size_t{0});
+  return before + (character < stroke_counts_.size() ? static_cast<std::size_t>(last().stroke) : 0);
 }
 
 void Pen::step_and_see(const Eigen::Vector3d& to) {
   step(to);
   intended_ = to;
   if (on_tick) on_tick(last());
-  drawn_.finished |= has_event(last().events, TickEvent::stroke_finished);
+  const bool started = has_event(last().events, TickEvent::stroke_started);
+  const bool finished = has_event(last().events, TickEvent::stroke_finished);
+  drawn_.started |= started;
+  drawn_.finished |= finished;
+  drawn_.went_on |= started && finished;
 }
 
 void Pen::go(const Eigen::Vector3d& to, double seconds) {
@@ -75,6 +90,12 @@ Drawn Pen::draw(const StrokeLine& line, double em) {
   for (const double arc : arcs_by_tick(line, em, period_)) step_and_see(raised_at(line.at(arc), -pressed_));
   go(raised_at(intended_.head<2>(), raised), 0.12);
   go(intended_, 0.08);  // until a held pen is there
+  return drawn_;
+}
+
+Drawn Pen::rest(double seconds) {
+  drawn_ = {};
+  go(intended_, seconds);
   return drawn_;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
@@ -15,7 +16,9 @@ inline constexpr double people_speed = 0.66;  ///< mean, along a stroke [em/s]
 
 /// What became of one line that was drawn, from the touch to the lift.
 struct Drawn {
+  bool started = false;   ///< a stroke
   bool finished = false;  ///< a stroke
+  bool went_on = false;   ///< finished a stroke in the tick in which it started the next
 };
 
 /// A pen and the renderer that it writes on.
@@ -27,7 +30,10 @@ class Pen {
   /// speed falls with the cube root of the curvature), and raises it: in the air for at least 0.3 s, 8 mm above the
   /// paper.
   Drawn draw(const StrokeLine& line, double em);
+  /// Stays where it is, in the air once it has drawn.
+  Drawn rest(double seconds);
 
+  std::size_t written() const;  ///< strokes of the page, so that this is the index of the due one
   const calligraphy::HapticTick& last() const { return renderer_.last(); }
   std::function<void(const calligraphy::HapticTick&)> on_tick;  ///< while it draws
 
@@ -41,6 +47,7 @@ class Pen {
   virtual void step(const Eigen::Vector3d& to) = 0;
 
   calligraphy::HapticRenderer renderer_;
+  std::vector<std::size_t> stroke_counts_;     ///< of the characters
   double period_;                              ///< [s]
   double pressed_ = 0.001;                     ///< how far below the paper the pen is meant to be [m]
   Eigen::Vector3d intended_ = {0, 0, raised};  ///< [m, page]

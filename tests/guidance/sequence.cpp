@@ -1,7 +1,5 @@
 #include "sequence.hpp"
 
-#include <memory>
-
 #include "base/parallel.hpp"
 
 namespace calligraphy_test {
@@ -9,11 +7,6 @@ namespace calligraphy_test {
 using namespace calligraphy;
 
 namespace {
-
-std::unique_ptr<Pen> pen_for(const PracticePage& page, const SequenceOptions& options) {
-  if (!options.held) return std::make_unique<KinematicPen>(page, options.device, options.renderer);
-  return std::make_unique<HeldPen>(page, options.device, options.renderer, GripImpedance{}, options.arm, options.feels);
-}
 
 /// Judges each character by itself, in parallel.
 SequenceResult judge_each(const std::vector<Character>& characters, const SequenceOptions& options,
@@ -34,11 +27,17 @@ SequenceResult judge_each(const std::vector<Character>& characters, const Sequen
 
 }  // namespace
 
+std::unique_ptr<Pen> pen_for(const PracticePage& page, const SequenceOptions& options) {
+  if (!options.held) return std::make_unique<KinematicPen>(page, options.device, options.renderer);
+  return std::make_unique<HeldPen>(page, options.device, options.renderer, GripImpedance{}, options.arm, options.feels);
+}
+
 void SequenceResult::add(const SequenceResult& other) {
   taken.add(other.taken);
   tries.add(other.tries);
   by_character.insert(by_character.end(), other.by_character.begin(), other.by_character.end());
   not_finished_exactly += other.not_finished_exactly;
+  taken_for_next += other.taken_for_next;
   findings.insert(findings.end(), other.findings.begin(), other.findings.end());
 }
 
@@ -49,24 +48,35 @@ SequenceResult judge_attempts(const std::vector<Character>& characters, const Se
     const std::vector<StrokeLine> lines = stroke_lines(page.characters.front());
     const auto code = static_cast<int>(page.characters.front().character.code);
     std::unique_ptr<Pen> pen = pen_for(page, options);
-    const auto write_exactly = [&](std::size_t count) {
-      for (std::size_t i = 0; i < count; ++i) pen->draw(lines[i], options.em);
+    const auto begin_anew = [&](std::size_t written) {
+      pen = pen_for(page, options);
+      for (std::size_t i = 0; i < written; ++i) pen->draw(lines[i], options.em);
+    };
+    const auto is_taken = [&](const Attempt& attempt, std::size_t due) {
+      if (pen->draw(attempt.line, options.em).finished) return true;
+      if (!attempt.goes_on) return false;
+      if (due + 1 == lines.size()) return pen->rest(final_rest).finished;
+      return pen->draw(lines[due + 1], options.em).went_on;
     };
     for (std::size_t due = 0; due < lines.size(); ++due) {
       bool taken = false;
       Random random(options.seed, {code, static_cast<int>(due)});
       const std::vector<Attempt> tried = attempts(lines, due, random);
       for (std::size_t i = 0; i < tried.size(); ++i) {
-        const bool is_taken = pen->draw(tried[i].line, options.em).finished;
-        result.tries.add(is_taken);
-        if (!is_taken) continue;
+        const bool this_one = is_taken(tried[i], due);
+        result.tries.add(this_one);
+        if (pen->written() != due) begin_anew(due);  // the next stroke may have been taken for the due one, too
+        if (!this_one) continue;
         if (!taken) result.findings.push_back({0, static_cast<int>(due), static_cast<int>(i), tried[i].figure});
         taken = true;
-        pen = pen_for(page, options);
-        write_exactly(due);
       }
       if (!tried.empty()) result.taken.add(taken);
-      if (pen->draw(lines[due], options.em).finished) continue;
+      const Drawn exactly = pen->draw(lines[due], options.em);
+      if (exactly.went_on) {
+        ++result.taken_for_next;
+        begin_anew(due + 1);
+      }
+      if (exactly.finished) continue;
       ++result.not_finished_exactly;
       result.findings.push_back({0, static_cast<int>(due)});
       break;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "drawings.hpp"
@@ -21,6 +22,11 @@ struct SequenceOptions {
   int threads = 0;
 };
 
+std::unique_ptr<Pen> pen_for(const calligraphy::PracticePage& page, const SequenceOptions& options);
+
+/// How long a pen stays in the air after the last stroke of a page, which no other follows [s].
+inline constexpr double final_rest = 1.2;
+
 /// One stroke that was taken although it must not be, or was not although it must.
 struct Finding {
   char32_t character = 0;
@@ -34,13 +40,15 @@ struct SequenceResult {
   Share tries;                      ///< of the attempts
   std::vector<Share> by_character;  ///< `taken` of each character
   int not_finished_exactly = 0;     ///< due strokes that, drawn exactly, were not finished: the rest was not judged
+  int taken_for_next = 0;           ///< due strokes that, drawn exactly after the attempts, were taken for the next one
   std::vector<Finding> findings;    ///< by character
 
   void add(const SequenceResult& other);
 };
 
 /// For each due stroke of each character, the strokes before it drawn exactly, draws each attempt. Counts due strokes
-/// with at least one attempt.
+/// with at least one attempt. One that goes on is taken also if the due stroke is finished by the start of the exact next
+/// one, or, if it is the last, while the pen rests in the air.
 SequenceResult judge_attempts(const std::vector<calligraphy::Character>& characters, const SequenceOptions& options,
                               const Attempts& attempts, const std::function<void(double)>& progress = nullptr);
 

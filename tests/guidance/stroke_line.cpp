@@ -99,6 +99,8 @@ StrokeLine StrokeLine::part(double from, double to) const {
   return StrokeLine(std::move(points));
 }
 
+StrokeLine StrokeLine::reversed() const { return StrokeLine(std::vector<Point>(points_.rbegin(), points_.rend())); }
+
 std::vector<StrokeLine> stroke_lines(const PlacedCharacter& placed) {
   std::vector<StrokeLine> lines;
   for (const Stroke& stroke : strokes(placed.character)) lines.emplace_back(stroke, placed.placement);

@@ -30,6 +30,8 @@ class StrokeLine {
 
   /// The part between two shares of the length.
   StrokeLine part(double from, double to) const;
+  /// The other way.
+  StrokeLine reversed() const;
   /// Each point moved by `move(point, share of the length)`.
   template <typename Move>
   StrokeLine moved(Move&& move) const {

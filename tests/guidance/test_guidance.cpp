@@ -11,6 +11,8 @@
 #include "catch.hpp"
 #include "package_data.hpp"
 #include "pairs.hpp"
+#include "pens_of_tests.hpp"
+#include "people.hpp"
 #include "releases.hpp"
 #include "sequence.hpp"
 #include "stages.hpp"
@@ -48,6 +50,25 @@ std::string list(const SequenceResult& result) {
             (finding.attempt >= 0 ? " attempt " + std::to_string(finding.attempt + 1) : "") + ", ";
   }
   return text;
+}
+
+struct Waves {
+  double lowest = 0.0, highest = 0.0;  ///< [m]
+  int downward = 0;                    ///< passages through the line, where the pen goes to the right of it
+};
+
+/// Of a line about the x axis.
+Waves waves_of(const StrokeLine& line) {
+  Waves waves;
+  double last = 0.0;
+  for (const Point& point : line.points()) {
+    waves.lowest = std::min(waves.lowest, point.y());
+    waves.highest = std::max(waves.highest, point.y());
+    if (std::abs(point.y()) < 1e-6) continue;
+    waves.downward += last > 0.0 && point.y() < 0.0;
+    last = point.y();
+  }
+  return waves;
 }
 
 /// At most a share [%] of the attempts is taken for a due stroke, and each due stroke itself is.
@@ -89,15 +110,66 @@ TEST_CASE("the judge: parts and zigzags of a line are where they should be", "[g
   const StrokeLine straight(std::vector<Point>{{0.0, 0.0}, {0.03, 0.0}});
   for (const bool sine : {false, true}) {
     const StrokeLine zigzag = zigzag_about(straight, {0.1, 0.2, sine, true}, 0.04);
-    double lowest = 0.0, highest = 0.0;
-    for (const Point& point : zigzag.points()) {
-      lowest = std::min(lowest, point.y());
-      highest = std::max(highest, point.y());
-    }
+    const Waves waves = waves_of(zigzag);
     CHECK(zigzag.at(0.0).y() == Approx(0.004));
-    CHECK(lowest == Approx(-0.004).epsilon(0.01));
-    CHECK(highest == Approx(0.004).epsilon(0.01));
+    CHECK(waves.lowest == Approx(-0.004).epsilon(0.01));
+    CHECK(waves.highest == Approx(0.004).epsilon(0.01));
   }
+}
+
+TEST_CASE("the judge: tremors and loops go as far aside, and as often, as they should", "[guidance]") {
+  constexpr double em = 0.04;
+  Random random(1);
+  const StrokeLine dot(std::vector<Point>{{0.0, 0.0}, {0.15 * em, 0.0}});
+  const StrokeLine line(std::vector<Point>{{0.0, 0.0}, {0.5 * em, 0.0}});
+  const std::vector<Attempt> drawn = tremors(em)({dot}, 0, random);
+  REQUIRE(drawn.size() == 6);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const Waves waves = waves_of(drawn[i].line);
+    const double amplitude = (0.02 + 0.01 * static_cast<double>(i / 2)) * em;
+    CHECK(waves.lowest == Approx(-amplitude).epsilon(0.01));
+    CHECK(waves.highest == Approx(amplitude).epsilon(0.01));
+    CHECK(waves.downward == (i % 2 == 0 ? 5 : 3));  // 0.15 em over 0.03 and 0.05 em
+  }
+  for (const bool clockwise : {false, true}) {
+    const StrokeLine loops = loops_along(line, 0.05, clockwise, em);
+    const Waves waves = waves_of(loops);
+    CHECK(waves.lowest == Approx(-0.05 * em).epsilon(0.01));
+    CHECK(waves.highest == Approx(0.05 * em).epsilon(0.01));
+    CHECK((loops.at(loops.length()) - loops.at(0.0)).isApprox(Point(0.5 * em, 0.0)));
+    CHECK(loops.length() > 5 * 0.314 * em);  // five circles, and on the way
+    const double first_way = loops.points()[12].y();  // after a quarter of the first loop
+    CHECK((clockwise ? first_way < 0.0 : first_way > 0.0));
+  }
+  CHECK(tremors(em)({line}, 0, random).empty());
+  CHECK(circling(em, true)({line}, 0, random).empty());
+  CHECK(circling(em, true)({dot}, 0, random).size() == 4);
+  CHECK(circling(em, false)({line}, 0, random).size() == 4);
+}
+
+TEST_CASE("the judge: a person's pen is laid on a character by one translation and one scale", "[guidance]") {
+  const PracticePage page = page_of(built_in_characters().at(U'永'), 0.04);
+  const std::vector<StrokeLine> strokes = stroke_lines(page.characters.front());
+  const auto pen = [&](double scale_x, double scale_y) {
+    std::vector<PenPath> paths;
+    for (const StrokeLine& stroke : strokes) {
+      const auto path = stroke.moved([&](const Point& point, double) {
+        return Point(scale_x * point.x() - 3.0, scale_y * point.y() + 0.5);
+      });
+      paths.push_back(path.points());
+    }
+    return laid_on(strokes, paths);
+  };
+  const std::vector<StrokeLine> copied = pen(12.0, 12.0), wide = pen(24.0, 12.0);
+  double off = 0.0;
+  for (std::size_t k = 0; k < strokes.size(); ++k) {
+    CHECK(mean_distance(copied[k], strokes[k]) < 1e-12);
+    const Point way = strokes[k].at(strokes[k].length()) - strokes[k].at(0.0);
+    const Point laid = wide[k].at(wide[k].length()) - wide[k].at(0.0);
+    CHECK(laid.x() * way.y() == Approx(2.0 * laid.y() * way.x()));
+    off = std::max(off, mean_distance(wide[k], strokes[k]));
+  }
+  CHECK(off > 1e-3);
 }
 
 TEST_CASE("force hardly ever takes a pen more than 2 mm farther from the stroke that is meant than vision, never 4 mm",
@@ -194,6 +266,20 @@ TEST_CASE("strokes that people distort by 2 and 3 % of the em finish at the firs
       }
     }
   }
+}
+
+TEST_CASE("strokes of people, as they wrote them, begin at the first touch and mostly finish there", "[guidance]") {
+  const auto written = people();
+  if (!written) return;
+  Share begun, finished;
+  for (const FirstTouch& touch : draw_people(written->pens, on("ideal", 0.04))) {
+    begun.add(touch.begun);
+    finished.add(touch.at_lift);
+  }
+  CAPTURE(begun.count, finished.count, begun.of);
+  CHECK(begun.of > 500);
+  CHECK(begun.percent() >= 99.0);
+  CHECK(finished.percent() >= 84.7);
 }
 
 TEST_CASE("every stroke of every imported character is finished by a pen that draws it exactly", "[guidance]") {

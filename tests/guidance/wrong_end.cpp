@@ -11,10 +11,6 @@ using namespace calligraphy;
 
 namespace {
 
-StrokeLine reversed(const StrokeLine& line) {
-  return StrokeLine(std::vector<Point>(line.points().rbegin(), line.points().rend()));
-}
-
 /// Sees a stroke being drawn backwards, tick by tick.
 class Resistance {
  public:
@@ -54,7 +50,7 @@ std::vector<WrongEnd> draw_from_wrong_end(const std::vector<Character>& characte
           stroke.length = lines[due].length() / options.em;
           Resistance resistance(stroke);
           pen.on_tick = [&](const HapticTick& tick) { resistance.see(tick); };
-          stroke.taken = pen.draw(reversed(lines[due]), options.em).finished;
+          stroke.taken = pen.draw(lines[due].reversed(), options.em).finished;
         }
       });
   std::vector<WrongEnd> all;

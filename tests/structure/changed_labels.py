@@ -12,7 +12,7 @@ from test_components import BELOW, component_of
 #: What the tests with a label use beside what their component may include, and what the judges of render use.
 ALSO_USED = {"judge": ["importers"], "practice": ["importers"], "pictures": ["importers"], "experiments": ["importers"],
              "collision": ["experiments"], "openhaptics": ["practice"],
-             "guidance": ["practice"], "stroke_judge": ["practice", "importers"], "stability": ["render"]}
+             "guidance": ["practice", "importers"], "stroke_judge": ["practice", "importers"], "stability": ["render"]}
 #: The labels of other files, by the start of their path; the longest that fits.
 OTHERS = {"tools/": ["tools"], "bindings/": ["python"], "examples/": ["c", "collision", "devices", "model", "practice"],
           "examples/python/": ["python"], "docs/": ["python", "tools"],
@@ -20,10 +20,11 @@ OTHERS = {"tools/": ["tools"], "bindings/": ["python"], "examples/": ["c", "coll
           "web/": [], "tests/web/": [],
           "tests/tools/": ["tools"], "tests/consumer/": ["consumer"], "tests/structure/": ["tools"],
           "tests/refused/": ["devices", "render"], "tests/fuzz/": ["collision"], "tests/soak/": ["practice"],
-          "tests/guidance/": ["guidance"], "tests/stroke_judge/": ["stroke_judge"], "tests/stability/": ["stability", "guidance"],
+          "tests/guidance/": ["guidance"], "tests/stroke_judge/": ["stroke_judge", "guidance"],
+          "tests/stability/": ["stability", "guidance"],
           "tests/devices/phantom/emulator/": ["phantom", "openhaptics", "tools", "python"],
           "tests/devices/openhaptics/": ["openhaptics", "tools", "python"],
-          "tests/judge/": ["judge", "practice", "stroke_judge"],
+          "tests/judge/": ["judge", "practice", "stroke_judge", "guidance"],
           "tests/practice/": ["practice", "pictures", "experiments", "stroke_judge"]}
 
 
