@@ -47,8 +47,8 @@ struct SequenceResult {
 };
 
 /// For each due stroke of each character, the strokes before it drawn exactly, draws each attempt. Counts due strokes
-/// with at least one attempt. One that goes on is taken also if the due stroke is finished by the start of the exact next
-/// one, or, if it is the last, while the pen rests in the air.
+/// with at least one attempt. One that goes on is taken also if the due stroke is finished by the start of the exact
+/// next one, or, if it is the last, while the pen rests in the air.
 SequenceResult judge_attempts(const std::vector<calligraphy::Character>& characters, const SequenceOptions& options,
                               const Attempts& attempts, const std::function<void(double)>& progress = nullptr);
 
