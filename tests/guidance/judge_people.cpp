@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/random.hpp>

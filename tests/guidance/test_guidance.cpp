@@ -1,6 +1,7 @@
 // What the guidance does to a pen, and what it takes for the due stroke: a few of the cases of guidance_judge, which
 // runs thousands.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <calligraphy/base/text.hpp>
