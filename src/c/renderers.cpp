@@ -109,7 +109,7 @@ calligraphy_status calligraphy_hint_text(const calligraphy_tick* tick, const cha
   return guarded([&] {
     const calligraphy_tick given = read_struct(tick, "calligraphy_tick");
     target(text, "text");
-    const auto hint = enumeration("hint", given.hint, WritingHint::warm_motors);
+    const auto hint = enumeration("hint", given.hint, WritingHint::lifted_early);
     const Language chosen = language ? Language(language) : Language();
     const std::string words = hint_text(hint, {given.to_start[0], given.to_start[1]}, chosen);
     if (words.size() >= capacity) {

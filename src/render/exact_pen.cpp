@@ -38,7 +38,7 @@ TickEvent draw(StrokeSequencer& sequencer, const Stroke& stroke, const Placement
       move(tip, true);
     }
   }
-  move(tip, false);
+  for (int i = 0; i < ShapeFit::max_steps; ++i) move(tip, false);
   return events;
 }
 
@@ -58,9 +58,9 @@ void require_exact_pen_accepted(const std::vector<PlacedCharacter>& page, const 
       Message message;
       message << "character " << i + 1 << " of the page: stroke " << number << ": drawn exactly, it would not be ";
       if (has_event(events, TickEvent::stroke_started)) {
-        message << "finished with tolerances.corridor = " << tolerances.corridor
-                << " em, tolerances.coverage = " << tolerances.coverage << " and tolerances.slack = "
-                << tolerances.slack << " em";
+        message << "finished with tolerances.first_stretch = " << tolerances.first_stretch
+                << " em, tolerances.corridor = " << tolerances.corridor << " em, tolerances.coverage = "
+                << tolerances.coverage << " and tolerances.slack = " << tolerances.slack << " em";
       } else {
         message << "begun with tolerances.start_distance = " << tolerances.start_distance
                 << " em, tolerances.direction = " << tolerances.direction << " rad, tolerances.first_stretch = "

@@ -47,7 +47,7 @@ const GuidanceForce& Guidance::update(PenState& pen, const WriterState& writer, 
     if (!pen.holds_force) release();
     return force_;
   }
-  if (writer.phase == WritingPhase::lifted && !released_.acts() && released_normal_ == 0.0 &&
+  if (writer.state == InteractionState::separation && !released_.acts() && released_normal_ == 0.0 &&
       writer.events == TickEvent::none) {
     return force_;  // nothing guides a pen in the air, and nothing is left to withdraw
   }
@@ -68,7 +68,7 @@ void Guidance::pull(PenState& pen, const WriterState& writer) noexcept {
   constexpr TickEvent attempts = TickEvent::contact | TickEvent::stroke_finished | TickEvent::stroke_abandoned;
   force_.attraction = force_.wrong_way = force_.viscous = Point::Zero();
   force_.normal = force_.power = 0.0;
-  if (writer.phase == WritingPhase::lifted || writer.phase == WritingPhase::page_written) return;
+  if (writer.state == InteractionState::separation || writer.phase == WritingPhase::page_written) return;
   if (has_event(writer.events, attempts)) begun_ = false;
   const GuidanceOptions& options = effective_.options.guidance;
   const StrokeContact& contact = writer.contact;

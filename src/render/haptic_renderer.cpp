@@ -96,7 +96,7 @@ void HapticRenderer::Stages::report(const PenState& pen, const WriterState& writ
   tick.device_point = pen.device_point;
   tick.pen_tip = pen.tip;
   tick.penetration = pen.penetration;
-  if (writer.phase != WritingPhase::lifted || writer.events != TickEvent::none) tick.contact = writer.contact;
+  if (writer.state != InteractionState::separation || writer.events != TickEvent::none) tick.contact = writer.contact;
   tick.covered = writer.covered;
   tick.hint = hint_in(writer.phase);
   if (sent.is_warm && tick.hint == WritingHint::none) tick.hint = WritingHint::warm_motors;

@@ -12,8 +12,8 @@ const char* to_string(TickStatus status) noexcept {
 const char* to_string(WritingHint hint) noexcept {
   static constexpr const char* names[] = {
       "none", "write", "too_far", "at_end", "in_middle", "wrong_direction", "another_stroke", "off_stroke",
-      "lift_first", "warm_motors"};
-  return name_of<WritingHint::warm_motors>(hint, names, "");
+      "lift_first", "warm_motors", "lifted_early"};
+  return name_of<WritingHint::lifted_early>(hint, names, "");
 }
 
 }  // namespace calligraphy

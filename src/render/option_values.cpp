@@ -86,7 +86,7 @@ void each_field(ContactOptions& o, const Visit& visit) {
 
 template <class Visit>
 void each_field(StrokeTolerances& o, const Visit& visit) {
-  [[maybe_unused]] const auto& [a, b, c, d, e, f, g] = o;
+  [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h] = o;
   visit("start_distance", o.start_distance);
   visit("direction", o.direction);
   visit("first_stretch", o.first_stretch);
@@ -94,6 +94,7 @@ void each_field(StrokeTolerances& o, const Visit& visit) {
   visit("corridor", o.corridor);
   visit("coverage", o.coverage);
   visit("slack", o.slack);
+  visit("next_decides", o.next_decides);
 }
 
 template <class Visit>

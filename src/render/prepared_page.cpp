@@ -15,6 +15,7 @@ PreparedPage::PreparedPage(std::vector<PlacedCharacter> characters, const Render
       PreparedStroke& next = prepared.emplace_back();
       next.geometry.load(stroke, placed.placement);
       next.follower.load(next.geometry, placed.placement.em, options.tolerances);
+      next.shape = shape_of(next.geometry, placed.placement.em);
     }
     prepared_.push_back({placed.placement.em, std::move(prepared), stroke_starts(placed, options.tolerances), box});
   }

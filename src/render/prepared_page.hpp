@@ -12,6 +12,7 @@
 
 #include "stroke_capture.hpp"
 #include "stroke_follower.hpp"
+#include "stroke_shape.hpp"
 
 namespace calligraphy {
 
@@ -19,6 +20,7 @@ namespace calligraphy {
 struct PreparedStroke {
   ActiveStroke geometry;
   StrokeFollower follower;
+  StrokeShape shape;
 };
 
 struct PreparedCharacter {

@@ -111,7 +111,8 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
   if (is_nearer && is_first_) return verdict_ = CaptureVerdict::another_stroke;
   const double moved = way.norm();
   if (!(moved >= start.stretch)) return verdict_;
-  const Misfit own = misfit(start, tip - way, way, em, tolerances);
+  own_begin_ = tip - way;
+  const Misfit own = misfit(start, own_begin_, way, em, tolerances);
   if (own.tolerable() && !is_other) return verdict_ = CaptureVerdict::begun;
   verdict_ = own.place <= 1.0 ? CaptureVerdict::wrong_direction : CaptureVerdict::undecided;
   is_first_ = false;
@@ -119,8 +120,13 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
   return verdict_;
 }
 
-void StrokeCapture::written(const Point& start) noexcept {
-  misplaced_ += down_ - start;
+double StrokeCapture::misfit_to(const StrokeStart& start, const Point& tip, double em,
+                                const StrokeTolerances& tolerances) const noexcept {
+  return misfit(start, down_ - misplaced(), tip - down_, em, tolerances).size();
+}
+
+void StrokeCapture::written(const Point& start, const Point& down) noexcept {
+  misplaced_ += down - start;
   ++count_;
 }
 

@@ -41,21 +41,31 @@ class StrokeCapture {
   CaptureVerdict update(const Point& tip, std::span<const StrokeStart> starts, std::size_t due, double em,
                         const StrokeTolerances& tolerances) noexcept;
 
+  /// How badly the pen's way from where it was put down to `tip` fits the start of a stroke; 1 at the tolerances.
+  double misfit_to(const StrokeStart& start, const Point& tip, double em,
+                   const StrokeTolerances& tolerances) const noexcept;
+
   CaptureVerdict verdict() const noexcept { return verdict_; }
   /// Whether the start of the due stroke was the nearest of those to come when the pen was put down.
   bool is_nearest() const noexcept { return is_nearest_; }
 
   /// Where the stroke was begun [m, page].
   const Point& begin() const noexcept { return anchor_; }
+  /// The same without the way on which it approached the stroke.
+  const Point& own_begin() const noexcept { return own_begin_; }
 
   /// Average offset at which the strokes of this character were begun [m]; the first ones count for little.
   Point misplaced() const noexcept { return misplaced_ / (count_ + 1); }
 
-  /// The stroke that begins at `start` was written to its end: writers misplace the strokes of a character alike.
-  void written(const Point& start) noexcept;
+  /// Where the pen was put down [m, page].
+  const Point& down() const noexcept { return down_; }
+  /// The stroke that begins at `start`, for which the pen was put down at `down`, was written to its end: writers
+  /// misplace the strokes of a character alike.
+  void written(const Point& start, const Point& down) noexcept;
 
  private:
   Point anchor_ = Point::Zero();  ///< follows the pen at the length of the first stretch
+  Point own_begin_ = Point::Zero();
   Point down_ = Point::Zero();    ///< where the pen was put down
   CaptureVerdict verdict_ = CaptureVerdict::undecided;
   bool is_nearest_ = false;

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "collision/pair.hpp"
+#include "stroke_verdict.hpp"
 
 namespace calligraphy {
 namespace {
@@ -33,6 +34,8 @@ constexpr double chord = 0.03;
 
 /// Share of the exact way that a pen must have gone, in chords: less is a part of the stroke, however it is stretched.
 constexpr double min_way = 0.57;
+/// A pen that begins the stroke after its start makes up for that on the way to the end: for at most this share of it.
+constexpr double max_late_share = 0.25;
 /// Share of the stroke that must be covered in order, however short it is: half of it, less what counts as abreast.
 constexpr double min_coverage = 0.42;
 /// Share of the pen's path that may lie outside the corridor.
@@ -88,14 +91,16 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
   for (int i = 1; i < count_; ++i) {
     for (int k = 1; k <= parts; ++k) measure(point(i - 1) + (point(i) - point(i - 1)) * k / parts);
   }
-  exact_way_ = chords_ + (point(count_ - 1) - chord_from_).norm();
+  const double exact_way = chords_ + (point(count_ - 1) - chord_from_).norm();
+  shortest_way_ = min_way * exact_way;
+  least_way_ = exact_way > 0.0 ? least_share_of_way(length_ / em, tolerances) * exact_way : 0.0;
 }
 
 void StrokeFollower::begin(const Point& tip, const Point& misplaced) noexcept {
   reached_ = 1;
   own_ = tip - row_.front().point;
   const Point towards = (row(std::min(first_points, count_ - 1)).point - row_.front().point).normalized();
-  late_ = std::max(0.0, own_.dot(towards)) * towards;
+  late_ = std::clamp(own_.dot(towards), 0.0, max_late_share * length_) * towards;
   misplaced_ = misplaced;
   tip_ = seen_ = chord_from_ = tip;
   nearest_ = covered_ = way_ = outside_ = chords_ = 0.0;
@@ -232,7 +237,7 @@ bool StrokeFollower::is_at_end(double hidden) const noexcept { return to_end_ <=
 bool StrokeFollower::accepts(double hidden) const noexcept {
   const double needed = std::max(min_coverage * length_, share_ * length_ - slack_ - hidden);
   const double way = chords_ + (seen_ + pull_ - chord_from_).norm();
-  return covered_ >= needed && way >= min_way * exact_way_ && outside_ <= max_outside * way_;
+  return covered_ >= needed && way >= shortest_way_ && way + hidden >= least_way_ && outside_ <= max_outside * way_;
 }
 
 double StrokeFollower::astray(const Point& hand, const StrokeContact& contact) const noexcept {

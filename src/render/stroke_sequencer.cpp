@@ -23,6 +23,9 @@ constexpr double min_held_weight = 0.5;
 /// is allowed for, and takes hold again within one.
 constexpr double max_detour = 2.0;
 
+/// The last stroke of a page, if it is in doubt, was written once the pen has been in the air for this time [s].
+constexpr double max_doubt = 1.0;
+
 bool is_within(const Eigen::AlignedBox2d& box, const Point& point) {
   return box.min().x() <= point.x() && point.x() <= box.max().x() && box.min().y() <= point.y() &&
          point.y() <= box.max().y();
@@ -48,15 +51,18 @@ StrokeSequencer::StrokeSequencer(std::vector<PlacedCharacter> page, const Render
 
 void StrokeSequencer::restart() noexcept {
   writer_ = {};
-  inside_box_ = false;
-  capture_.restart();
+  inside_box_ = in_doubt_ = false;
+  look_ = Look::none;
+  attempt_.capture.restart();
   activate(0, 0);
 }
 
 bool StrokeSequencer::skip() noexcept {
   if (writer_.state == InteractionState::writing || all_written() || is_character_written()) return false;
+  in_doubt_ = false;
+  look_ = Look::none;
   const int next = writer_.stroke + 1;
-  if (next < static_cast<int>(character_->strokes.size())) {
+  if (next < stroke_count()) {
     activate(writer_.character, next);
   } else if (writer_.state == InteractionState::separation) {
     activate(writer_.character + 1, 0);
@@ -74,12 +80,14 @@ const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
   const Point tip = pen.tip.head<2>();
   writer_.events = TickEvent::none;
   if (pen.status != TickStatus::ok) return writer_;
+  if (look_ == Look::decides) decide(pen);
+  if (in_doubt_) settle_doubt(pen);
   const TransitionInput input = advance(pen);
   const State before = writer_.state, after = next_state(before, input);
   writer_.state = after;
   if (before == State::separation && after != State::separation) writer_.events |= TickEvent::contact;
   if (before == State::writing && after != State::writing) {
-    input.stroke_finished ? finish_stroke(tip) : abandon_stroke(tip);
+    input.stroke_finished ? finish_stroke(tip) : leave_stroke(pen);
   }
   if (before != State::writing && after == State::writing) start_stroke(pen);
   if (before != State::separation && after == State::separation) lift();
@@ -105,12 +113,10 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
     inside_box_ = box.exteriorDistance(tip) <= hysteresis;
   }
   input.inside_box = inside_box_;
-  input.may_start = writer_.phase != WritingPhase::finished;
+  input.may_start = writer_.phase != WritingPhase::finished && look_ != Look::decides;
   if (writing) {
     if (input.contact) write_on(pen);
-    const bool leaves = !input.contact || !input.inside_box;
-    if (leaves) due_->follower.leave();
-    input.stroke_finished = is_finished(leaves);
+    input.stroke_finished = is_finished(pen);
   } else if (input.contact && input.may_start) {
     if (writer_.state == InteractionState::separation) put_down(tip);
     input.begins = begins(pen);
@@ -130,22 +136,61 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
 }
 
 void StrokeSequencer::set_out(const Point& tip) noexcept {
-  capture_.put_down(tip, character_->starts, static_cast<std::size_t>(writer_.stroke));
-  due_->follower.begin(tip, capture_.misplaced());
+  const auto put_down = [&](Attempt& attempt, int stroke) {
+    attempt.capture.put_down(tip, character_->starts, static_cast<std::size_t>(stroke));
+    begin_following(attempt, stroke);
+  };
+  if (next_in_doubt() >= 0) {
+    next_.capture = attempt_.capture;
+    put_down(next_, next_in_doubt());
+  }
+  put_down(attempt_, writer_.stroke);
 }
 
 bool StrokeSequencer::begins(const PenState& pen) noexcept {
-  const Point tip = pen.tip.head<2>(), from = capture_.begin();
-  const auto due = static_cast<std::size_t>(writer_.stroke);
-  const CaptureVerdict verdict = capture_.update(tip, character_->starts, due, writer_.em, tolerances_);
-  if (character_->starts[due].bends) {  // its ends do not say how it was written
-    if (capture_.begin() != from) due_->follower.begin(capture_.begin(), capture_.misplaced());
-    if (pen.on_paper) due_->follower.update(tip, hand(pen));
-  }
+  if (next_in_doubt() >= 0 && begins_next(pen)) return next_in_doubt() < 0;
+  const CaptureVerdict verdict = try_to_begin(attempt_, writer_.stroke, pen);
   if (verdict == CaptureVerdict::begun) return true;
   if (verdict == CaptureVerdict::another_stroke) writer_.rests = false;
-  if (writer_.rests) writer_.contact = due_->geometry.update(tip, stroke_);
+  if (writer_.rests) writer_.contact = due_->geometry.update(pen.tip.head<2>(), stroke_);
   return false;
+}
+
+CaptureVerdict StrokeSequencer::try_to_begin(Attempt& attempt, int stroke, const PenState& pen) noexcept {
+  const Point from = attempt.capture.begin();
+  const CaptureVerdict verdict = attempt.capture.update(pen.tip.head<2>(), character_->starts,
+                                                        static_cast<std::size_t>(stroke), writer_.em, tolerances_);
+  if (start(stroke).bends) {  // its ends do not say how it was written
+    if (attempt.capture.begin() != from) begin_following(attempt, stroke);
+    follow(attempt, stroke, pen);
+  }
+  return verdict;
+}
+
+/// Whether the pen seems to begin the next stroke rather than the due one anew, and once it has, finishes the due one.
+[[gnu::noinline]] bool StrokeSequencer::begins_next(const PenState& pen) noexcept {
+  const Point tip = pen.tip.head<2>();
+  const int next = next_in_doubt();
+  const auto misfit_to = [&](int stroke) {
+    return next_.capture.misfit_to(start(stroke), tip, writer_.em, tolerances_);
+  };
+  const bool is_next = misfit_to(next) < misfit_to(writer_.stroke);
+  const CaptureVerdict verdict = try_to_begin(next_, next, pen);
+  if (!is_next) return false;
+  if (verdict == CaptureVerdict::begun) confirm_stroke();
+  return verdict != CaptureVerdict::another_stroke;
+}
+
+void StrokeSequencer::begin_following(Attempt& attempt, int stroke) noexcept {
+  this->stroke(stroke).follower.begin(attempt.capture.begin(), attempt.capture.misplaced());
+  attempt.path.begin(attempt.capture.begin(), writer_.em);
+}
+
+void StrokeSequencer::follow(Attempt& attempt, int stroke, const PenState& pen) noexcept {
+  if (!pen.on_paper) return;
+  const Point tip = pen.tip.head<2>(), hand = this->hand(pen);
+  this->stroke(stroke).follower.update(tip, hand);
+  attempt.path.update(tip, hand);
 }
 
 void StrokeSequencer::write_on(const PenState& pen) noexcept {
@@ -153,43 +198,108 @@ void StrokeSequencer::write_on(const PenState& pen) noexcept {
   writer_.contact = due_->geometry.update(tip, stroke_);
   if (writer_.contact.passed_feature) writer_.events |= TickEvent::feature_passed;
   hand_ = hand(pen);
-  if (pen.on_paper) due_->follower.update(tip, hand_);
+  if (pen.on_paper) {
+    due_->follower.update(tip, hand_);
+    attempt_.path.update(tip, hand_);
+  }
   writer_.covered = due_->follower.covered();
 }
 
-/// A stroke is finished at its end, or where the pen `leaves` it earlier.
-bool StrokeSequencer::is_finished(bool leaves) const noexcept {
+/// At its end, once its shape is known; a dot where the pen leaves it.
+bool StrokeSequencer::is_finished(const PenState& pen) noexcept {
   if (tolerances_.coverage == 0.0) return writer_.contact.finished;
-  return (leaves || due_->follower.is_at_end(hidden_way_)) && due_->follower.accepts(2.0 * hidden_way_);
+  if (!pen.on_paper) {
+    look_for(Look::at_lift);
+    return false;
+  }
+  if (look_ == Look::at_lift) look_ = Look::none;  // the pen was bouncing
+  if (!due_->follower.is_at_end(hidden_way_) || !due_->follower.accepts(2.0 * hidden_way_)) return false;
+  passed_end_ = true;
+  if (lift_between_strokes_ && is_dot(due_->shape)) return false;
+  look_for(Look::at_end);
+  return fit_.is_done() && !is_vetoed(fit_.match(), due_->shape, tolerances_);
+}
+
+/// Once for each purpose, in the course of several ticks.
+[[gnu::noinline]] void StrokeSequencer::look_for(Look purpose) noexcept {
+  if (look_ != purpose) {
+    look_ = purpose;
+    fit_.begin(attempt_.path, due_->shape, attempt_.capture.misplaced());
+  } else {
+    fit_.step();
+  }
 }
 
 [[gnu::noinline]] void StrokeSequencer::start_stroke(const PenState& pen) noexcept {
   writer_.events |= TickEvent::stroke_started;
-  writer_.rests = false;
-  due_->geometry.begin(capture_.begin());
-  const bool is_followed = character_->starts[static_cast<std::size_t>(writer_.stroke)].bends;
-  if (!is_followed) due_->follower.begin(capture_.begin(), capture_.misplaced());
+  if (in_doubt_) writer_.events |= TickEvent::stroke_abandoned;
+  in_doubt_ = false;
+  writer_.rests = passed_end_ = false;
+  look_ = Look::none;
+  due_->geometry.begin(attempt_.capture.begin());
+  if (!start(writer_.stroke).bends) {
+    begin_following(attempt_, writer_.stroke);
+    attempt_.path.begin(attempt_.capture.own_begin(), writer_.em);
+  }
   write_on(pen);
+}
+
+/// What was written is decided as soon as its shape is known.
+[[gnu::noinline]] void StrokeSequencer::leave_stroke(const PenState& pen) noexcept {
+  if (tolerances_.coverage == 0.0) {
+    abandon_stroke(pen.tip.head<2>());
+    return;
+  }
+  due_->follower.leave();
+  if (look_ != Look::at_lift) look_for(Look::decides);
+  look_ = Look::decides;
+  if (fit_.is_done()) decide(pen);
+}
+
+/// A pen that comes back to the paper sooner finds it decided.
+[[gnu::noinline]] void StrokeSequencer::decide(const PenState& pen) noexcept {
+  const bool is_urgent = pen.contact && writer_.state == InteractionState::separation;
+  while (!fit_.step() && is_urgent) {
+  }
+  if (!fit_.is_done()) return;
+  look_ = Look::none;
+  const Point tip = pen.tip.head<2>();
+  const double hidden = 2.0 * hidden_way_;
+  const bool is_followed = passed_end_ || due_->follower.accepts(hidden);
+  const StrokeVerdict verdict = is_followed && !is_vetoed(fit_.match(), due_->shape, tolerances_)
+                                    ? StrokeVerdict::finished
+                                    : verdict_on(fit_.match(), due_->shape, hidden / writer_.em, tolerances_);
+  if (verdict == StrokeVerdict::finished) {
+    finish_stroke(tip);
+  } else if (verdict == StrokeVerdict::plausible) {
+    in_doubt_ = true;
+    lifted_at_ = pen.time;
+    doubted_down_ = attempt_.capture.down();
+    due_->geometry.reload();
+  } else {
+    abandon_stroke(tip);
+  }
 }
 
 [[gnu::noinline]] void StrokeSequencer::finish_stroke(const Point& tip) noexcept {
   writer_.events |= TickEvent::stroke_finished;
-  capture_.written(due_->geometry.start());
+  attempt_.capture.written(due_->geometry.start(), attempt_.capture.down());
+  const bool must_lift = lift_between_strokes_ && writer_.state != InteractionState::separation;
   const int next = writer_.stroke + 1;
-  if (next < static_cast<int>(character_->strokes.size())) {
+  if (next < stroke_count()) {
     activate(writer_.character, next);
   } else {
     writer_.events |= TickEvent::character_finished;
     if (writer_.character + 1 == page_.size()) writer_.events |= TickEvent::page_finished;
     // The box of the next character is elsewhere, and outside a box the paper does not press back: it would give way
     // under a pen that is still pressed on this character.
-    if (lift_between_strokes_) {
+    if (must_lift) {
       writer_.stroke = next;
     } else {
       activate(writer_.character + 1, 0);
     }
   }
-  if (lift_between_strokes_) {
+  if (must_lift) {
     writer_.phase = WritingPhase::finished;
   } else if (!all_written()) {
     set_out(tip);
@@ -202,6 +312,34 @@ bool StrokeSequencer::is_finished(bool leaves) const noexcept {
   set_out(tip);
 }
 
+/// The last stroke of a character, if in doubt, was written if the pen goes on with the next one, or nothing is left.
+[[gnu::noinline]] void StrokeSequencer::settle_doubt(const PenState& pen) noexcept {
+  if (next_in_doubt() >= 0) return;
+  if (writer_.state != InteractionState::separation) {
+    lifted_at_ = pen.time;
+    return;
+  }
+  const int next = writer_.character + 1;
+  const Point tip = pen.tip.head<2>();
+  const bool goes_on = next < page_.size()
+                           ? pen.contact && page_[next].box.exteriorDistance(tip) < character_->box.exteriorDistance(tip)
+                           : !pen.contact && pen.time - lifted_at_ >= max_doubt;
+  if (!goes_on) return;
+  in_doubt_ = false;
+  writer_.events |= TickEvent::stroke_finished | TickEvent::character_finished;
+  if (next == page_.size()) writer_.events |= TickEvent::page_finished;
+  activate(next, 0);
+}
+
+/// The pen has begun the next stroke: the due one was written.
+[[gnu::noinline]] void StrokeSequencer::confirm_stroke() noexcept {
+  in_doubt_ = false;
+  writer_.events |= TickEvent::stroke_finished;
+  next_.capture.written(due_->geometry.start(), doubted_down_);
+  activate(writer_.character, writer_.stroke + 1);
+  attempt_ = next_;
+}
+
 [[gnu::noinline]] void StrokeSequencer::lift() noexcept {
   writer_.events |= TickEvent::lift;
   writer_.rests = false;
@@ -212,22 +350,22 @@ bool StrokeSequencer::is_finished(bool leaves) const noexcept {
 [[gnu::noinline]] void StrokeSequencer::activate(int character, int stroke) noexcept {
   if (character != writer_.character) {
     inside_box_ = false;
-    capture_.restart();
+    attempt_.capture.restart();
   }
   writer_.character = character;
   writer_.stroke = stroke;
   writer_.rests = false;
   character_ = character < page_.size() ? &page_[character] : nullptr;
   if (all_written()) return;
-  due_ = &character_->strokes[static_cast<std::size_t>(stroke)];
+  due_ = &this->stroke(stroke);
   writer_.geometry = &due_->geometry;
   writer_.em = character_->em;
-  writer_.direction = character_->starts[static_cast<std::size_t>(stroke)].direction;
+  writer_.direction = start(stroke).direction;
 }
 
 /// Refines the paper's state as docs/capture.md draws it.
 WritingPhase StrokeSequencer::phase(const Point& tip) const noexcept {
-  if (writer_.state == InteractionState::separation) return WritingPhase::lifted;
+  if (writer_.state == InteractionState::separation) return in_doubt_ ? WritingPhase::in_doubt : WritingPhase::lifted;
   if (all_written()) return WritingPhase::page_written;
   if (writer_.state == InteractionState::writing) {
     return keeps_hold() ? WritingPhase::guided : WritingPhase::released;
@@ -236,15 +374,21 @@ WritingPhase StrokeSequencer::phase(const Point& tip) const noexcept {
 }
 
 WritingPhase StrokeSequencer::phase_before_stroke(const Point& tip) const noexcept {
-  const CaptureVerdict verdict = capture_.verdict();
+  const CaptureVerdict verdict = attempt_.capture.verdict();
   if (verdict == CaptureVerdict::another_stroke) return WritingPhase::other_stroke;
   // The first stretch leads away from the start.
-  const double from_start = std::min(writer_.to_start.norm(), (capture_.begin() - due_->geometry.start()).norm());
+  const double from_start = std::min(writer_.to_start.norm(), (attempt_.capture.begin() - due_->geometry.start()).norm());
   const bool is_late = writer_.rests && writer_.contact.arc > end_share * due_->geometry.length();
   if (is_late && (tip - due_->geometry.end()).norm() < from_start) return WritingPhase::at_end;
-  if (from_start <= tolerances_.start_distance * writer_.em) {
-    return verdict == CaptureVerdict::wrong_direction ? WritingPhase::turned_away : WritingPhase::at_start;
+  const auto phase_at_start = [](CaptureVerdict of) {
+    return of == CaptureVerdict::wrong_direction ? WritingPhase::turned_away : WritingPhase::at_start;
+  };
+  const double near = tolerances_.start_distance * writer_.em;
+  if (next_in_doubt() >= 0) {
+    const double from_next = (tip - start(next_in_doubt()).point).norm();
+    if (from_next <= near && from_next < from_start) return phase_at_start(next_.capture.verdict());
   }
+  if (from_start <= near) return phase_at_start(verdict);
   return writer_.rests ? WritingPhase::in_middle : WritingPhase::away;
 }
 
@@ -278,9 +422,9 @@ bool StrokeSequencer::is_guided() const noexcept {
     case WritingPhase::other_stroke:
       return false;
     case WritingPhase::at_start:
-      return capture_.is_nearest();
+      return attempt_.capture.is_nearest();
     default:
-      return leads_to_start_ && capture_.is_nearest() && !writer_.rests;
+      return leads_to_start_ && attempt_.capture.is_nearest() && !writer_.rests;
   }
 }
 

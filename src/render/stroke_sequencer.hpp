@@ -10,8 +10,10 @@
 
 #include "pen_state.hpp"
 #include "prepared_page.hpp"
+#include "shape_fit.hpp"
 #include "stroke_capture.hpp"
 #include "writer_state.hpp"
+#include "written_path.hpp"
 
 namespace calligraphy {
 
@@ -33,18 +35,45 @@ class StrokeSequencer {
  private:
   bool all_written() const noexcept { return character_ == nullptr; }
   /// True until the pen is lifted from it. Requires !all_written().
-  bool is_character_written() const noexcept { return writer_.stroke == static_cast<int>(character_->strokes.size()); }
+  bool is_character_written() const noexcept { return writer_.stroke == stroke_count(); }
+  int stroke_count() const noexcept { return static_cast<int>(character_->strokes.size()); }
+  PreparedStroke& stroke(int index) const noexcept { return character_->strokes[static_cast<std::size_t>(index)]; }
+  const StrokeStart& start(int index) const noexcept { return character_->starts[static_cast<std::size_t>(index)]; }
+  /// The stroke after the due one, while the pen may begin it and so finish the due one; -1 if there is none.
+  int next_in_doubt() const noexcept { return in_doubt_ && writer_.stroke + 1 < stroke_count() ? writer_.stroke + 1 : -1; }
+
+  /// A pen-down, taken for one of the strokes.
+  struct Attempt {
+    StrokeCapture capture;
+    WrittenPath path;
+  };
+  /// What the shape that the pen has written is looked at for.
+  enum class Look {
+    none,
+    at_end,   ///< the pen is about to finish the stroke
+    at_lift,  ///< it has left the paper, but may be bouncing
+    decides   ///< it has left the stroke
+  };
 
   TransitionInput advance(const PenState& pen) noexcept;
   void put_down(const Point& tip) noexcept;
   void set_out(const Point& tip) noexcept;
   bool begins(const PenState& pen) noexcept;
+  CaptureVerdict try_to_begin(Attempt& attempt, int stroke, const PenState& pen) noexcept;
+  bool begins_next(const PenState& pen) noexcept;
+  void begin_following(Attempt& attempt, int stroke) noexcept;
+  void follow(Attempt& attempt, int stroke, const PenState& pen) noexcept;
   void write_on(const PenState& pen) noexcept;
-  bool is_finished(bool leaves) const noexcept;
+  bool is_finished(const PenState& pen) noexcept;
+  void look_for(Look purpose) noexcept;
 
   void start_stroke(const PenState& pen) noexcept;
+  void leave_stroke(const PenState& pen) noexcept;
+  void decide(const PenState& pen) noexcept;
   void finish_stroke(const Point& tip) noexcept;
   void abandon_stroke(const Point& tip) noexcept;
+  void settle_doubt(const PenState& pen) noexcept;
+  void confirm_stroke() noexcept;
   void lift() noexcept;
   void activate(int character, int stroke) noexcept;
 
@@ -67,7 +96,14 @@ class StrokeSequencer {
   PreparedCharacter* character_ = nullptr;  ///< the one of `page_` to be written; null once all are
   PreparedStroke* due_ = nullptr;           ///< its stroke that is due; the last once all are written
   Point hand_ = Point::Zero();              ///< where the hand means to be, in the writing state [m, page]
-  StrokeCapture capture_;
+  Attempt attempt_;                         ///< to write the due stroke
+  Attempt next_;                            ///< the same pen-down, were the next one meant
+  ShapeFit fit_;
+  Look look_ = Look::none;
+  bool passed_end_ = false;                 ///< the pen was at the end, having written enough
+  bool in_doubt_ = false;                   ///< perhaps the due stroke was written
+  double lifted_at_ = 0.0;                  ///< since when [s]
+  Point doubted_down_ = Point::Zero();      ///< where the pen was put down for it [m, page]
   bool inside_box_ = false;
   WriterState writer_;
 };

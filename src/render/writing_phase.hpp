@@ -7,10 +7,11 @@
 
 namespace calligraphy {
 
-/// Refines the paper's states: `lifted` is SS, `guided` and `released` are WS, `page_written` is AS, and the others are
+/// Refines the paper's states: `lifted` and `in_doubt` are SS, `guided` and `released` are WS, `page_written` is AS, and the others are
 /// CS in the character's box and AS outside it.
 enum class WritingPhase : std::uint8_t {
   lifted,        ///< not on the paper
+  in_doubt,      ///< likewise, and perhaps the stroke that is due was written: what is begun next decides
   page_written,  ///< no stroke is due
   finished,      ///< has just finished the previous stroke, and must be lifted
   away,          ///< too far from the start
@@ -30,6 +31,8 @@ constexpr WritingHint hint_in(WritingPhase phase) noexcept {
     case WritingPhase::page_written:
     case WritingPhase::guided:
       return WritingHint::none;
+    case WritingPhase::in_doubt:
+      return WritingHint::lifted_early;
     case WritingPhase::finished:
       return WritingHint::lift_first;
     case WritingPhase::away:

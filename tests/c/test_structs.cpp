@@ -574,6 +574,7 @@ TEST_CASE("the names of C are the values of C++") {
   CHECK(CALLIGRAPHY_HINT_OFF_STROKE == static_cast<int>(WritingHint::off_stroke));
   CHECK(CALLIGRAPHY_HINT_LIFT_FIRST == static_cast<int>(WritingHint::lift_first));
   CHECK(CALLIGRAPHY_HINT_WARM_MOTORS == static_cast<int>(WritingHint::warm_motors));
+  CHECK(CALLIGRAPHY_HINT_LIFTED_EARLY == static_cast<int>(WritingHint::lifted_early));
   CHECK(CALLIGRAPHY_SERVO_RUNNING == static_cast<int>(ServoPhase::running));
   CHECK(CALLIGRAPHY_SERVO_FALLING == static_cast<int>(ServoPhase::falling));
   CHECK(CALLIGRAPHY_NEITHER == static_cast<int>(WritingDirection::neither));

@@ -44,6 +44,7 @@ TEST_CASE("a hint that leads nowhere else names no direction", "[practice]") {
   CHECK(hint_text(WritingHint::off_stroke, anywhere) == "too far from the stroke");
   CHECK(hint_text(WritingHint::lift_first, anywhere) == "lift the pen first");
   CHECK(hint_text(WritingHint::warm_motors, anywhere) == "the motors are warm: less force");
+  CHECK(hint_text(WritingHint::lifted_early, anywhere) == "lifted early? go on, or write it again");
   CHECK(hint_text(WritingHint::too_far, {std::nan(""), 0.0}) == "too far from the start");
 }
 

@@ -150,27 +150,6 @@ TEST_CASE("before a stroke only a pen that is nearer to its start than to any to
   }
 }
 
-TEST_CASE("who has misplaced the strokes before by as much may misplace the rest of this one", "[render]") {
-  for (const double shift : {0.0, 0.13}) {  // [em]
-    HapticRenderer renderer = renderer_of(U"三");
-    ScriptedPen pen(renderer);
-    const Placement& placement = renderer.page()[0].placement;
-    const auto all = strokes(renderer.page()[0].character);
-    for (const std::size_t before : {0, 1}) {
-      std::vector<Point> path = path_of(all[before], placement, 1e-4);
-      for (Point& point : path) point.y() += shift * placement.em;
-      pen.write(path);
-    }
-    REQUIRE(renderer.last().stroke == 2);
-    // Begun where it should be, and from its first tenth on 0.1 em above: beyond the corridor of 0.06 em.
-    std::vector<Point> path = path_of(all[2], placement, 1e-4);
-    for (std::size_t i = path.size() / 10; i < path.size(); ++i) path[i].y() += 0.1 * placement.em;
-    pen.write(path);
-    CAPTURE(shift);
-    CHECK((renderer.last().character == 1) == (shift > 0.0));
-  }
-}
-
 TEST_CASE("lifting the pen in mid-stroke abandons the stroke, which begins again at its start", "[render]") {
   HapticRenderer renderer = renderer_of(U"永");
   ScriptedPen pen(renderer);

@@ -156,7 +156,7 @@ TEST_CASE("no option takes a number with which nothing could be written, and eac
 }
 
 TEST_CASE("a stroke that the tolerances would not take though it is drawn exactly is named at set-up", "[render]") {
-  const std::vector<StrokeInput> inputs = {{1, {{0.2, 0.2}, {0.8, 0.2}}}, {16, {{0.2, 0.8}, {0.7, 0.8}, {0.7, 0.3}}}};
+  const std::vector<StrokeInput> inputs = {{1, {{0.2, 0.2}, {0.8, 0.2}}}, {16, {{0.2, 0.8}, {0.3, 0.8}, {0.3, 0.3}}}};
   const auto character = [&](std::size_t count) { return make_character(U'\u4E00', std::span(inputs).first(count)); };
   const std::vector<PlacedCharacter> page = {{character(1), {{0.02, 0.02}, 0.04}}, {character(2), {{0.08, 0.02}, 0.04}}};
   const auto found = [&](const std::function<void(StrokeTolerances&)>& change) {
@@ -166,9 +166,11 @@ TEST_CASE("a stroke that the tolerances would not take though it is drawn exactl
   };
   CHECK(found([](StrokeTolerances&) {}).empty());
   CHECK(found([](StrokeTolerances& t) { t.corridor = 0.01; }).empty());
-  // All but a millionth must be covered, and a pen covers less of a corner as its offset turns with it.
-  CHECK(contains(found([](StrokeTolerances& t) { t.coverage = 1.0 - 1e-6, t.slack = 0.0; }),
-                 "character 2 of the page: stroke 2: drawn exactly, it would not be finished with tolerances.corridor"));
+  CHECK(found([](StrokeTolerances& t) { t.coverage = 1.0, t.slack = 0.0; }).empty());
+  // Of a first stretch only the ends are known, and the corner is within it.
+  CHECK(contains(found([](StrokeTolerances& t) { t.first_stretch = 1.0, t.corridor = 0.01; }),
+                 "character 2 of the page: stroke 2: drawn exactly, it would not be finished with "
+                 "tolerances.first_stretch = 1 em, tolerances.corridor = 0.01 em"));
   CHECK(found([](StrokeTolerances& t) { t.coverage = 0.0; }).empty());  // the feature planes finish it
 }
 

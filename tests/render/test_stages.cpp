@@ -186,6 +186,7 @@ TEST_CASE("a misplaced pen is pulled to the stroke's start, but only on the pape
     pen.go(at(stroke.start + 0.005 * stroke.along, -0.001));
     CHECK(renderer.last().state == InteractionState::writing);
     pen.go(at(stroke.end, -0.001));
+    rest(pen, at(stroke.end, -0.001), 20);  // it is looked at
     CHECK(renderer.last().stroke == 1);
     pen.go(at(astray, -0.001));  // not lifted yet: the next stroke may not begin
     rest(pen, at(astray, -0.001), 100);
@@ -496,10 +497,11 @@ TEST_CASE(
     for (int i = 0; i < 20; ++i) {
       pen.at(at(stroke.start, -0.001));
       if (i % 2 == 1) pen.at(at(stroke.start + 0.002 * stroke.along, -0.001));
-      rest(pen, at(stroke.start, 0.0035), i % 4 + 1);  // too high for a bounce
+      rest(pen, at(stroke.start, 0.0035), 5 * (i % 4) + 1);  // too high for a bounce; decided then, or at the touch
       states += i % 2 == 1 ? " CS WS SS" : " CS SS";
       events += i % 2 == 1 ? "sa" : "";
     }
+    rest(pen, at(stroke.start, 0.0035), 20);
     CHECK(watch.states == states);
     CHECK(watch.events == events);
     CHECK(renderer.last().stroke == 0);

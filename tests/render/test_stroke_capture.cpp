@@ -168,7 +168,7 @@ TEST_CASE("who has misplaced the strokes before is expected to misplace this one
   for (int written = 0; written < 3; ++written) {
     Pen before{first, {}, 0, pen.capture, {0, 0}};
     REQUIRE(before.draw(first[0].point + shift, {0.002, 0}) == CaptureVerdict::begun);
-    before.capture.written(first[0].point);
+    before.capture.written(first[0].point, before.capture.down());
     pen.capture = before.capture;
   }
   CHECK(pen.draw(shift, {0.002, 0}) == CaptureVerdict::begun);
@@ -234,7 +234,7 @@ TEST_CASE("deciding what a pen begins does not allocate", "[render]") {
   for (int i = 0; i < 1000; ++i) {
     pen.capture.put_down({1e-5 * i, 0}, pen.starts, 0);
     pen.capture.update({1e-5 * i + 0.002, 0}, pen.starts, 0, em, pen.tolerances);
-    pen.capture.written({0, 0});
+    pen.capture.written({0, 0}, {0, 0});
   }
   CHECK(calligraphy_test::allocations() == before);
 }

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <set>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,15 @@ PenState pen_at(const Point& tip, bool contact) {
   pen.contact = pen.on_paper = contact;
   pen.tip = pen.device_point = pen.position = {tip.x(), tip.y(), contact ? 0.0 : 0.005};
   return pen;
+}
+
+/// Whether the pen, lifted at `tip`, has written the stroke.
+bool is_finished_in_air(StrokeSequencer& sequencer, const Point& tip) {
+  bool finished = false;
+  for (int i = 0; i < 20; ++i) {
+    finished = finished || has_event(sequencer.update(pen_at(tip, false)).events, TickEvent::stroke_finished);
+  }
+  return finished;
 }
 
 /// The way of an accurate pen along stroke `index` of a page, in steps of 0.2 mm.
@@ -80,8 +90,12 @@ bool is_drawn(Phase from, Phase to, const RendererOptions& options) {
     return is_one(phase, {Phase::away, Phase::in_middle, Phase::at_end, Phase::at_start, Phase::turned_away});
   };
   const auto writes = [&](Phase phase) { return is_one(phase, {Phase::guided, Phase::released}); };
+  const auto is_up = [&](Phase phase) { return is_one(phase, {Phase::lifted, Phase::in_doubt}); };
   if (from == to || to == Phase::lifted) return true;
-  if (from == Phase::lifted) return is_before(to) || to == Phase::page_written;
+  if (to == Phase::in_doubt) return is_up(from) || writes(from) || is_before(from);
+  if (is_up(from)) return is_before(to) || to == Phase::page_written;
+  // Out of the box it takes up to 19 ticks until it is decided.
+  if (is_before(from) && to == Phase::finished) return options.contact.lift_between_strokes;
   if (is_before(from)) return is_before(to) || is_one(to, {Phase::other_stroke, Phase::guided});
   if (!writes(from)) return false;  // finished, another stroke, page written: until the pen is lifted
   if (writes(to)) return true;
@@ -111,7 +125,7 @@ TEST_CASE("the state of the writer moves along the arrows that are drawn, and re
           const Phase phase = writer.phase;
           if (before != phase) seen.emplace(before, phase);
           wrong += !is_drawn(before, phase, options);
-          const bool is_lifted = phase == Phase::lifted, writes = phase == Phase::guided || phase == Phase::released;
+          const bool is_lifted = phase == Phase::lifted || phase == Phase::in_doubt, writes = phase == Phase::guided || phase == Phase::released;
           unlike_paper += is_lifted != (writer.state == InteractionState::separation);
           unlike_paper += writes != (writer.state == InteractionState::writing);
           const bool ends = has_event(writer.events, TickEvent::page_finished);
@@ -147,8 +161,10 @@ TEST_CASE("a page that is finished by sliding guides nobody, from that tick on",
   options.guidance.to_start = true;
   StrokeSequencer sequencer = sequencer_of(U'一', options);
   bool finished = false;
-  sequencer.update(pen_at(way_along(sequencer, 0).front(), false));
-  for (const Point& tip : way_along(sequencer, 0)) {
+  std::vector<Point> way = way_along(sequencer, 0);
+  way.insert(way.end(), 20, way.back());
+  sequencer.update(pen_at(way.front(), false));
+  for (const Point& tip : way) {
     const WriterState& writer = sequencer.update(pen_at(tip, true));
     finished = finished || has_event(writer.events, TickEvent::page_finished);
     CHECK((writer.phase == Phase::page_written) == finished);
@@ -192,7 +208,7 @@ TEST_CASE("a pen put down beside a stroke that it begins at once, but out of the
   sequencer.update(pen_at(0.04 * Point(0.2, 0.5), false));
   for (int i = 0; i <= 110; ++i) sequencer.update(pen_at(0.04 * Point(0.2 + 0.005 * i, 0.5), true));
   for (int i = 0; i <= 26; ++i) sequencer.update(pen_at(0.04 * Point(0.75 - 0.005 * i, 0.5), true));
-  CHECK(has_event(sequencer.update(pen_at(0.04 * Point(0.62, 0.5), false)).events, TickEvent::stroke_finished));
+  CHECK(is_finished_in_air(sequencer, 0.04 * Point(0.62, 0.5)));
   sequencer.update(pen_at(0.04 * Point(0.5, 1.0), false));  // out of the box
   const WriterState& writer = sequencer.update(pen_at(0.04 * Point(0.5, 0.855), true));
   CHECK(writer.state == InteractionState::adjusting);
@@ -215,10 +231,73 @@ TEST_CASE("a stroke that is drawn exactly is finished with every preset, whichev
                                   test_device(), {}, true);
         for (const Point& tip : way_along(sequencer, 0)) sequencer.update(pen_at(tip, true));
         CAPTURE(tolerances.corridor, entry, angle);
-        CHECK(sequencer.update(pen_at({0.0, 0.0}, false)).character == 1);
+        CHECK(is_finished_in_air(sequencer, {0.0, 0.0}));
       }
     }
   }
+}
+
+TEST_CASE("a stroke in doubt is decided by what is begun next", "[render]") {
+  // 十 twice: 0.75 of its first stroke, then of its second.
+  struct Twice {
+    StrokeSequencer sequencer{{placed(U'\u5341'), placed(U'\u5341', {0.08, 0.02})}, {}, test_device(), {}, true};
+    double time = 0.0;
+
+    WriterState at(const Point& tip, bool contact) {
+      PenState pen = pen_at(tip, contact);
+      pen.time = time += 0.001;
+      return sequencer.update(pen);
+    }
+    /// Says what happens on the way, from the touch to 30 ms after the lift.
+    std::string write(std::size_t character, std::size_t stroke, double share = 1.0) {
+      const PlacedCharacter& of = sequencer.page()[character];
+      std::vector<Point> way = calligraphy_test::path_of(strokes(of.character)[stroke], of.placement, 2e-4);
+      way.resize(static_cast<std::size_t>(share * static_cast<double>(way.size())));
+      std::string events;
+      const auto see = [&](const WriterState& writer) {
+        const std::pair<TickEvent, char> names[] = {
+            {TickEvent::stroke_finished, 'f'}, {TickEvent::stroke_abandoned, 'a'},
+            {TickEvent::character_finished, 'c'}, {TickEvent::page_finished, 'p'}, {TickEvent::stroke_started, 's'}};
+        for (const auto& [event, letter] : names) events += has_event(writer.events, event) ? std::string(1, letter) : "";
+      };
+      see(at(way.front(), false));
+      for (const Point& tip : way) see(at(tip, true));
+      for (int i = 0; i < 30; ++i) see(at(way.back(), false));
+      return events;
+    }
+    Phase phase() { return at({0.0, 0.0}, false).phase; }
+  };
+  Twice twice;
+  CHECK(twice.write(0, 0, 0.75) == "s");
+  CHECK(twice.phase() == Phase::in_doubt);
+  CHECK(hint_in(twice.phase()) == WritingHint::lifted_early);
+  CHECK(twice.write(0, 0, 0.75) == "as");       // again
+  CHECK(twice.write(0, 1, 0.75) == "fs");       // went on
+  CHECK(twice.phase() == Phase::in_doubt);
+  CHECK(twice.write(1, 0) == "fcsf");           // with the next character
+  CHECK(twice.write(1, 1, 0.75) == "s");        // the last of the page
+  for (int i = 0; i < 900; ++i) CHECK(twice.phase() == Phase::in_doubt);
+  TickEvent events = TickEvent::none;
+  for (int i = 0; i < 100; ++i) events |= twice.at({0.0, 0.0}, false).events;
+  CHECK(events == (TickEvent::stroke_finished | TickEvent::character_finished | TickEvent::page_finished));
+  CHECK(twice.phase() == Phase::lifted);
+
+  Twice skipped;
+  CHECK(skipped.write(0, 0, 0.75) == "s");
+  CHECK(skipped.sequencer.skip());
+  CHECK(skipped.phase() == Phase::lifted);
+  CHECK(skipped.write(0, 1) == "sfc");
+}
+
+TEST_CASE("a pen that is put down again at once finds the stroke before decided", "[render]") {
+  StrokeSequencer sequencer = sequencer_of(U'\u4E09');
+  std::vector<Point> way = way_along(sequencer, 0);
+  const std::vector<Point> next = way_along(sequencer, 1);
+  sequencer.update(pen_at(way.front(), false));
+  way.resize(way.size() / 3);
+  for (const Point& tip : way) sequencer.update(pen_at(tip, true));
+  CHECK_FALSE(has_event(sequencer.update(pen_at(way.back(), false)).events, TickEvent::stroke_abandoned));
+  CHECK(sequencer.update(pen_at(next.front(), true)).events == (TickEvent::stroke_abandoned | TickEvent::contact));
 }
 
 TEST_CASE("a bad sample changes nothing that is known of the writer, and happens nowhere", "[render]") {

@@ -114,6 +114,7 @@ TEST_CASE("a pen 5 mm above the paper is lifted at once", "[render]") {
   };
   test.pen.speed = 0.5;  // 10 ms from the paper to 5 mm above it
   test.pen.go(at(test.place, 0.005));
+  for (int i = 0; i < 15; ++i) test.pen.at(at(test.place, 0.005));
   CHECK(test.renderer.last().state == InteractionState::separation);
   CHECK(too_early == 0);
   CHECK(too_late == 0);

@@ -622,7 +622,9 @@ typedef enum calligraphy_hint {
   CALLIGRAPHY_HINT_ANOTHER_STROKE = 6,   ///< moving as if to begin another stroke
   CALLIGRAPHY_HINT_OFF_STROKE = 7,       ///< writing, but too far from the stroke or pulled aside
   CALLIGRAPHY_HINT_LIFT_FIRST = 8,       ///< lift the pen first: the previous stroke has just been finished
-  CALLIGRAPHY_HINT_WARM_MOTORS = 9       ///< guided, but warm motors permit less force than that takes: let them rest
+  CALLIGRAPHY_HINT_WARM_MOTORS = 9,      ///< guided, but warm motors permit less force than that takes: let them rest
+  CALLIGRAPHY_HINT_LIFTED_EARLY = 10     ///< in the air, after a stroke that is perhaps too short: begin the next one,
+                                         ///< or write it again
 } calligraphy_hint;
 
 /// Result of one tick.

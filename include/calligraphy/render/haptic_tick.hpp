@@ -17,8 +17,12 @@ enum class TickEvent : std::uint16_t {
   lift = 1 << 1,                ///< the pen left the paper
   stroke_started = 1 << 2,      ///< the first stretch of the active stroke was written: guidance begins
   feature_passed = 1 << 3,      ///< a feature point of the active stroke was passed
-  stroke_finished = 1 << 4,     ///< a stroke was written to its end; `stroke` of this tick is already the next
-  stroke_abandoned = 1 << 5,    ///< a stroke was left before its end; its trace is to be cleared
+  /// A stroke was written; `stroke` of this tick is already the next. At its end, within 50 ms of the lift, or together
+  /// with the next stroke_started; on its own after 1 s in the air if none comes, at the end of a page.
+  stroke_finished = 1 << 4,
+  /// A stroke was left before its end, and its trace is to be cleared: where the pen leaves it, within 50 ms of that, or
+  /// together with the next stroke_started, which writes it anew.
+  stroke_abandoned = 1 << 5,
   character_finished = 1 << 6,  ///< the last stroke of a character was finished
   page_finished = 1 << 7        ///< the last character of the page was finished
 };
@@ -56,7 +60,8 @@ constexpr bool has_position(TickStatus status) noexcept {
 /// "ok", "stale", "bad_sample", "device_fault", "bad_clock", "bad_law".
 const char* to_string(TickStatus status) noexcept;
 
-/// Why a pen on the paper is not guided, or less than it should be, for a display to show.
+/// Why a pen on the paper is not guided, or less than it should be, and what a lifted one left in doubt, for a display
+/// to show.
 enum class WritingHint : std::uint8_t {
   none,             ///< guided, not on the paper, or back on it once everything is written
   write,            ///< at the start of the stroke that is due: write on
@@ -67,11 +72,12 @@ enum class WritingHint : std::uint8_t {
   another_stroke,   ///< moving as if to begin another stroke
   off_stroke,       ///< writing, but too far from the stroke or pulled aside: `contact.closest` is where to return
   lift_first,       ///< lift the pen first: the previous stroke has just been finished
-  warm_motors       ///< guided, but the warm motors permit less force than that takes: let them rest
+  warm_motors,      ///< guided, but the warm motors permit less force than that takes: let them rest
+  lifted_early      ///< in the air, after a stroke that is perhaps too short: begin the next one, or write it again
 };
 
 /// "none", "write", "too_far", "at_end", "in_middle", "wrong_direction", "another_stroke", "off_stroke", "lift_first",
-/// "warm_motors"; for people hint_text() of `practice` puts it into words.
+/// "warm_motors", "lifted_early"; for people hint_text() of `practice` puts it into words.
 const char* to_string(WritingHint hint) noexcept;
 
 /// Result of one servo tick.
@@ -87,7 +93,7 @@ struct HapticTick {
   double penetration = 0.0;                                ///< depth of the device point in the paper [m]
   StrokeContact contact;  ///< valid in the writing state, in the tick that leaves it, and for hints on the stroke
   double covered = 0.0;   ///< share of the stroke written last that was covered in order [1]
-  WritingHint hint = WritingHint::none;  ///< why a pen on the paper is not guided
+  WritingHint hint = WritingHint::none;  ///< why a pen on the paper is not guided, or what it left in doubt
   Point to_start = Point::Zero();        ///< from the pen tip to the start of the active, or last, stroke [m, page]
   Point attraction = Point::Zero();      ///< force term, including assistance, before fade-in and limits [N, page]
   Point wrong_way = Point::Zero();       ///< force term, before fade-in and limits [N, page]

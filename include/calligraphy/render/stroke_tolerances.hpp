@@ -30,19 +30,22 @@ struct StrokeTolerances {
   double coverage = 0.9;
   /// Length that may be missing besides, so that short strokes are taken too [em].
   double slack = 0.04;
+  /// Whether a stroke of the right shape that is perhaps too short when the pen is lifted stays due, but is finished
+  /// once the pen begins the next one.
+  bool next_decides = true;
 
   /// Whether all are the same.
   bool operator==(const StrokeTolerances&) const = default;
 
   /// For beginners and for large devices held loosely.
   static constexpr StrokeTolerances lenient() noexcept {
-    return {0.25, std::numbers::pi / 2.5, 0.04, 3.0, 0.08, 0.8, 0.06};
+    return {0.25, std::numbers::pi / 2.5, 0.04, 3.0, 0.08, 0.8, 0.06, true};
   }
   /// The default.
   static constexpr StrokeTolerances normal() noexcept { return {}; }
   /// For examinations.
   static constexpr StrokeTolerances strict() noexcept {
-    return {0.1, std::numbers::pi / 4.0, 0.04, 1.5, 0.05, 0.95, 0.02};
+    return {0.1, std::numbers::pi / 4.0, 0.04, 1.5, 0.05, 0.95, 0.02, false};
   }
 };
 

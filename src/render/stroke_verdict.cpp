@@ -1,0 +1,71 @@
+#include "stroke_verdict.hpp"
+
+#include <algorithm>
+
+namespace calligraphy {
+namespace {
+
+/// With normal tolerances; they follow `coverage` and `corridor`.
+constexpr double usual_coverage = 0.9, usual_corridor = 0.06;
+
+/// Least share of the length: that of a long stroke, and of the shortest one, where so much may be missing [em]; they
+/// change with `coverage` by this much.
+constexpr double long_share = 0.67, short_share = 0.57, missing = 0.075, by_coverage = 0.7;
+/// What may be missing besides if the next stroke decides, and the share that is always needed.
+constexpr double doubt = 0.05, least_extent = 0.55;
+/// From the share `coverage` less this on it does not matter where the rest is missing; below, at most twice `slack`.
+constexpr double nearly = 0.05, one_sided = 2.0;
+/// Most of the length that is too much: a share, and a length [em].
+constexpr double most_share = 0.3, most_length = 0.12;
+
+/// To and fro, relative to the stroke.
+constexpr double roughest = 1.35;
+/// A stroke bulges if by so much [em]; what is written for it then bulges by this share of that.
+constexpr double bent = 0.05, flattest = 0.25;
+
+/// Distances that the map may leave in the usual corridor, and those at which the follower is overruled [em].
+constexpr double most_misfit = 0.025, overruled_misfit = 0.028;
+/// Sine of the turn: that of a long stroke, and more for a short one [em].
+constexpr double turn = 0.48, short_turn = 0.03;
+constexpr double narrowest = 0.5, least_ahead = 0.5;
+constexpr double most_moved = 0.15;                              // [em]
+constexpr double end_distance = 0.2, end_of_dot = 0.16, end_share_of_length = 0.1;  // [em], [em], [1]
+
+double scaled(double misfit, const StrokeTolerances& tolerances) { return misfit * tolerances.corridor / usual_corridor; }
+
+bool is_another_shape(const ShapeMatch& match, const StrokeShape& stroke) {
+  return match.roughness > roughest || (stroke.bulge > bent && match.bulge < flattest * stroke.bulge);
+}
+
+}  // namespace
+
+double least_share_of_way(double length, const StrokeTolerances& tolerances) noexcept {
+  const double more = by_coverage * (tolerances.coverage - usual_coverage);
+  const double of_short = short_share + std::max(more, 0.0);
+  return std::clamp(1.0 - missing / length, of_short, std::max(of_short, long_share + more));
+}
+
+bool is_vetoed(const ShapeMatch& match, const StrokeShape& stroke, const StrokeTolerances& tolerances) noexcept {
+  // People make a dot three times as long, and the map hardly changes the size of one.
+  const double most_misfit_of = scaled(overruled_misfit, tolerances) * std::max(1.0, match.ahead);
+  return is_another_shape(match, stroke) || match.misfit > most_misfit_of;
+}
+
+StrokeVerdict verdict_on(const ShapeMatch& match, const StrokeShape& stroke, double hidden,
+                         const StrokeTolerances& tolerances) noexcept {
+  const double length = stroke.length;
+  const bool is_of_shape = match.extent >= least_extent && match.misfit <= scaled(most_misfit, tolerances) && match.turn <= turn + short_turn / length &&
+                           match.narrowest > narrowest && match.ahead >= least_ahead && match.moved <= most_moved &&
+                           match.end <= std::max(end_distance, end_of_dot + end_share_of_length * length) + hidden &&
+                           match.extent <= 1.0 + most_share + most_length / length;
+  if (!is_of_shape || is_another_shape(match, stroke)) return StrokeVerdict::refused;
+  const double extent = match.extent + hidden / length, least = least_share_of_way(length, tolerances);
+  const double most_missing = one_sided * tolerances.slack;
+  const bool is_whole = extent > tolerances.coverage - nearly ||
+                        (match.late <= most_missing && match.early - hidden <= most_missing);
+  if (extent >= least && is_whole) return StrokeVerdict::finished;
+  const bool is_plausible = tolerances.next_decides && extent >= least - doubt;
+  return is_plausible ? StrokeVerdict::plausible : StrokeVerdict::refused;
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,31 @@
+#include "written_path.hpp"
+
+namespace calligraphy {
+
+void WrittenPath::begin(const Point& tip, double em) noexcept {
+  points_[0] = points_[1] = hand_ = chord_from_ = tip;
+  count_ = 1;
+  apart_ = spacing * em;
+  chord_ = chord * em;
+  way_ = chords_ = 0.0;
+}
+
+void WrittenPath::add_chord() noexcept {
+  chords_ += (hand_ - chord_from_).norm();
+  chord_from_ = hand_;
+}
+
+/// Keeps the last point.
+void WrittenPath::keep() noexcept {
+  way_ += (points_[count_] - points_[count_ - 1]).norm();
+  const Point tip = points_[count_];
+  if (count_ == capacity) {
+    for (std::size_t i = 1; 2 * i < capacity; ++i) points_[i] = points_[2 * i];
+    count_ = capacity / 2;
+    apart_ *= 2.0;
+  }
+  points_[count_++] = tip;
+  points_[count_] = tip;
+}
+
+}  // namespace calligraphy

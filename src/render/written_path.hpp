@@ -1,0 +1,48 @@
+// What a pen has written of a stroke, however long it takes, in a bounded number of points.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include <calligraphy/model/point.hpp>
+
+namespace calligraphy {
+
+/// Keeps a point every 0.01 em. When it is full, every second point goes and the distance doubles. Never allocates.
+class WrittenPath {
+ public:
+  static constexpr double spacing = 0.01;  ///< of the first points [em]
+  static constexpr double chord = 0.03;    ///< of the hand's way, which a fine tremor does not lengthen [em]
+  static constexpr std::size_t capacity = 64;
+
+  /// The pen sets out at `tip` [m, page], in a square of `em` [m].
+  void begin(const Point& tip, double em) noexcept;
+
+  /// The pen is at `tip`, and the hand means to be at `hand` [m, page].
+  void update(const Point& tip, const Point& hand) noexcept {
+    points_[count_] = tip;
+    hand_ = hand;
+    if ((hand - chord_from_).squaredNorm() >= chord_ * chord_) add_chord();
+    if ((tip - points_[count_ - 1]).squaredNorm() >= apart_ * apart_) keep();
+  }
+
+  /// Where the pen was: the points that are kept, and the last one [m, page].
+  std::span<const Point> points() const noexcept { return {points_.data(), count_ + 1}; }
+  /// Length of the pen's way from one kept point to the next [m].
+  double way() const noexcept { return way_; }
+  /// Length of the hand's way in chords [m].
+  double chords() const noexcept { return chords_ + (hand_ - chord_from_).norm(); }
+
+ private:
+  [[gnu::noinline]] void add_chord() noexcept;
+  [[gnu::noinline]] void keep() noexcept;
+
+  std::array<Point, capacity + 1> points_;  ///< kept ones, and the last one
+  std::size_t count_ = 1;                   ///< of the kept ones
+  Point hand_ = Point::Zero(), chord_from_ = Point::Zero();
+  double apart_ = 0.0, chord_ = 0.0;
+  double way_ = 0.0, chords_ = 0.0;
+};
+
+}  // namespace calligraphy
