@@ -124,6 +124,52 @@ testPage("strokes backwards, out of order and lifted midway are refused, and rem
   assert.equal(marks.size, remarks.length, "each points at something else");
 });
 
+testPage("a stroke lifted early is ink once the next is begun or the page is over, and fades when it is written again",
+         { character: "三" }, async (tab) => {
+  await tab.setStrength(0);
+  const [first, second, third] = parts.strokesOf("三");
+  const early = [beginningOf(first, 0.59), beginningOf(third, 0.69)];  // of a longer stroke, more is wanted
+  const inkOf = async (colour) => await tab.countPixels("ink", { colour }) > 0;
+  const isDoubted = async (stroke) => {
+    assert.equal(await progress(tab), `Stroke ${stroke} of 3`);
+    await tab.pass(300);
+    assert.match(await tab.text("#hint"), /^lifted early\?/);
+    assert.ok(await inkOf(colours.skipped), "it is paler");
+  };
+  const wasInk = await tab.countPixels("ink");
+  await tab.write(early[0]);
+  await isDoubted(1);
+  if (screenshots) await tab.page.screenshot({ path: join(screenshots, "doubt.png") });
+  await tab.pass(5000);
+  await tab.write(second);
+  assert.equal(await progress(tab), "Stroke 3 of 3");
+  assert.ok(await inkOf(colours.ink) && !await inkOf(colours.skipped), "both are ink");
+  const before = await tab.countPixels("ink");
+  await tab.write(early[1]);
+  await isDoubted(3);
+  const once = await tab.countPixels("ink");
+  await tab.write(early[1], { midway: async () => {
+    assert.equal(await tab.countPixels("ink"), before, "the one before has faded");
+    assert.ok(await tab.page.locator("#hint").isHidden());
+  } });
+  await isDoubted(3);
+  assert.ok(wasInk === 0 && Math.abs(await tab.countPixels("ink") - once) < 0.05 * once);
+  await tab.pass(700);
+  await isWritten(tab);
+  assert.ok(!await inkOf(colours.skipped));
+  const { rows } = await tab.result();
+  assert.match(rows.Strokes, /^3 of 3/);
+  assert.equal(rows["Right at once"], "2 of 3");
+});
+
+testPage("the time in which the last stroke was in doubt is not counted", { character: "一" }, async (tab) => {
+  await tab.write(beginningOf(parts.strokesOf("一")[0], 0.69), { pause: 20 });
+  await tab.page.locator("#paper").hover({ position: { x: 9, y: 9 } });  // and the pen is elsewhere
+  await tab.pass(1200);
+  await isWritten(tab);
+  assert.ok(Number.parseFloat((await tab.result()).rows.Time) < 0.8);
+});
+
 for (const as of ["mouse", "touch"]) {
   testPage(`永 is written with ${as === "mouse" ? "a mouse" : "a finger"}`, {}, async (tab) => {
     for (const [i, path] of yong.entries()) {

@@ -5,7 +5,7 @@ import { Desk, em, sheet } from "./desk.js";
 import { Brush, InkLine } from "./ink.js";
 import { colours } from "./paper.js";
 import { PenDown } from "./pen_down.js";
-import { Recorder } from "./recorder.js";
+import { Recorder, verdicts } from "./recorder.js";
 import { Trace } from "./trace.js";
 
 /**
@@ -34,6 +34,7 @@ const longestWork = 25;   // on ticks for one picture [ms]
 const longestGap = 3000;  // between two pictures: what the pen did before is not made up for [ms]
 const longestWay = 150;   // of the lifted pen across the sheet [ms]
 const shortestLift = 0.052;  // of a pen; a score takes a shorter one for a bounce [s]
+const longestDoubt = 1200;  // of a pen in the air about what it wrote: the last stroke is settled within it [ms]
 const longestBounce = 0.15 * em;  // a pointer that is put down this near, with the pen still on the paper, writes on [m]
 
 export class Lesson {
@@ -42,6 +43,9 @@ export class Lesson {
   penDowns = [];
   /** @type {PenDown | undefined} */
   penDown;  // while the pen is on the paper
+  /** @type {PenDown | undefined} */
+  unjudged;  // the last that began a stroke, while it is not known whether it wrote it
+  endOfDoubt = -Infinity;  // about it, if nothing is left to write [ms]
   recorder = new Recorder();
   trace = new Trace();  // what the pointer did
   /** @type {import("./pointer.js").PointerSample[]} */
@@ -57,7 +61,7 @@ export class Lesson {
   brush = new Brush();
   tip = [sheet / 2, sheet / 2];  // of the guided pen [m]
   isOnPaper = false;
-  isGuideLate = false;  // its settings have changed while the pen was on the paper
+  isGuideLate = false;  // its settings have changed while a stroke was being written
   hint = { kind: 0, age: 0 };  // why the pen is not guided, and for how long [ms]
 
   /** @type {InkLine[]} */
@@ -156,12 +160,13 @@ export class Lesson {
   skip() {
     const stroke = this.desk.due;
     if (this.isWritten || !this.desk.skip()) return;
-    if (this.penDown) this.penDown.isPassed = true;
+    if (this.penDown) Object.assign(this.penDown, { isPassed: true, isBegun: false });
+    this.unjudged = undefined;
     this.skipped.push(stroke);
     this.missed.add(stroke);
     this.animations.clear();
     this.#strokeIsOver();
-    this.paper.fillStroke("ink", this.desk.strokes[stroke], colours.skipped);
+    this.#drawInk();
     if (this.desk.due === this.desk.strokes.length) this.#finish();
     this.wake();
   }
@@ -207,17 +212,21 @@ export class Lesson {
     });
   }
 
-  /** The ink that stays. */
+  /** The ink that stays, or may stay. */
   #drawInk() {
     this.paper.clear("ink");
     for (const stroke of this.skipped) this.paper.fillStroke("ink", this.desk.strokes[stroke], colours.skipped);
-    for (const penDown of this.penDowns) if (penDown.finish) this.#drawLines("ink", penDown, true);
+    for (const penDown of this.penDowns) {
+      const isOpen = penDown === this.unjudged;
+      const colour = isOpen && penDown.isDoubted ? colours.skipped : colours.ink;
+      if (penDown.finish || isOpen) this.#drawLines("ink", penDown, true, colour);
+    }
   }
 
   #guide() {
     const { settings, mode } = this;
-    if (!this.isOnPaper) this.desk.guide(mode.isGuided ? settings.strength : 0, settings.tolerance);
-    this.isGuideLate = this.isOnPaper;  // the pen is not disturbed while it writes
+    this.isGuideLate = this.isOnPaper || this.unjudged !== undefined;  // what is being written is not disturbed
+    if (!this.isGuideLate) this.desk.guide(mode.isGuided ? settings.strength : 0, settings.tolerance);
   }
 
   /** @param {number} now */
@@ -232,15 +241,20 @@ export class Lesson {
       if (tick % 64 === 0 && performance.now() - now > longestWork) break;
     }
     this.#draw(now);
-    const isBusy = this.isOnPaper || this.isDown || this.isPlaying || this.animations.playing.length > 0;
-    this.isAwake = isBusy || now - this.lastActivity < rest;
+    const isMoving = this.isPlaying || this.animations.playing.length > 0;
+    this.isAwake = this.#isBusy || isMoving || now - this.lastActivity < rest;
     if (this.isAwake) requestAnimationFrame((next) => this.#picture(next));
+  }
+
+  /** Whether the pen writes, or what it wrote may yet be decided while it is in the air. */
+  get #isBusy() {
+    return this.isDown || this.isOnPaper || (this.unjudged !== undefined && this.time < this.endOfDoubt);
   }
 
   /** Leaves out a time in which a lifted pen that is played did nothing: no pictures were drawn then, either. */
   #skipRest() {
-    const next = this.played.at(-1)?.time ?? this.time, isBusy = this.isDown || this.isOnPaper;
-    if (!isBusy && this.time - this.lastSample >= rest) this.time = Math.max(this.time, next);
+    const next = this.played.at(-1)?.time ?? this.time;
+    if (!this.#isBusy && this.time - this.lastSample >= rest) this.time = Math.max(this.time, next);
   }
 
   /** The next sample that is due, of those that are played first. */
@@ -298,8 +312,9 @@ export class Lesson {
   }
 
   #advance() {
-    const { desk, brush } = this, before = desk.due;
+    const { desk, brush, unjudged } = this, before = desk.due;
     const tick = desk.advance(), [x, y] = tick.pen_tip, { events } = tick;
+    const isLate = unjudged !== undefined && (events & verdicts) !== 0;  // of a pen-down that is over
     const isOnPaper = tick.state !== constants.SEPARATION;
     if (events & constants.CONTACT) this.#putDown();
     const time = this.#timeOfWriter();
@@ -308,18 +323,23 @@ export class Lesson {
       const { penDown } = this, ink = penDown.isStray(x, y) ? penDown.stray : penDown.guided;
       ink.add(x, y, brush.press(this.pressure, speed, 1e-3), 0.7 * this.paper.pixel);
     }
+    if (isLate) this.recorder.judge(unjudged.lifted, tick);
     const isStray = isOnPaper && events === 0 && this.penDown?.isStray(x, y);
-    if ((isOnPaper && !isStray) || events !== 0) this.recorder.add(tick, time, this.ownAt);
+    if ((isOnPaper && !isStray) || tick.events !== 0) this.recorder.add(tick, time, this.ownAt);
     if (isOnPaper) this.timeOnPaper = time;
     this.tip = [x, y];
     this.isOnPaper = isOnPaper;
     this.#readHint(tick);
-    if (this.penDown) {
-      if (events & constants.STROKE_FINISHED) this.penDown.finish ??= [x, y];
-      if (events & constants.STROKE_ABANDONED) this.penDown.isBroken = true;
+    (unjudged ?? this.penDown)?.takeEvents(events & verdicts, [x, y]);
+    this.penDown?.takeEvents(events & constants.STROKE_STARTED, [x, y]);
+    if (isLate) {
+      this.unjudged = undefined;
+      this.#drawInk();
+      this.#settle(unjudged);
     }
     if (events & constants.LIFT) this.#lift();
     if (desk.due !== before) this.#strokeIsOver();
+    if (this.isGuideLate && !isOnPaper && !this.unjudged) this.#guide();
   }
 
   /** Another one is due. */
@@ -350,17 +370,30 @@ export class Lesson {
     if (!penDown) return;
     const isDown = this.isDown ? 1 : 0;  // that of the next stroke already
     penDown.own = this.own.splice(0, this.own.length - isDown);
+    penDown.end = [this.tip[0], this.tip[1]];
     this.paper.clear("pen");
     if (penDown.isPalm && !penDown.finish) {
       this.recorder.count = penDown.recorded;
-    } else if (penDown.finish) {
+      if (penDown.isBegun) this.#guide();  // which forgets what it wrote
+    } else if (penDown.isBegun) {
+      penDown.lifted = this.recorder.count - 1;
+      this.unjudged = penDown;
+      this.endOfDoubt = this.time + longestDoubt;
+      this.#drawInk();
+    } else {
+      if (penDown.finish) this.#drawLines("ink", penDown, true);
+      this.#settle(penDown);
+    }
+  }
+
+  /** What becomes of a pen-down that is over. @param {PenDown} penDown */
+  #settle(penDown) {
+    if (penDown.finish) {
       this.display.hint("", 0, 0);
-      this.#drawLines("ink", penDown, true);
       if (this.desk.due === this.desk.strokes.length) this.#finish();
     } else if (!this.isWritten && !penDown.isPassed) {
       this.#refuse(penDown);
     }
-    if (this.isGuideLate) this.#guide();
   }
 
   /** @param {PenDown} penDown */
@@ -369,8 +402,10 @@ export class Lesson {
     this.missed.add(this.desk.due);
     const stroke = this.desk.strokes[this.desk.due], shows = this.isStuck;
     this.#fade(penDown);
-    this.#flash(stroke, () => shows && this.#demonstrate(this.desk.due));
-    this.display.hint(penDown.whyNot(stroke, this.tip) ?? this.#words(penDown.hint), this.tip[0], this.tip[1]);
+    if (!this.penDown) {  // otherwise it is being written again
+      this.#flash(stroke, () => shows && this.#demonstrate(this.desk.due));
+      this.display.hint(penDown.whyNot(stroke) ?? this.#words(penDown.hint), penDown.end[0], penDown.end[1]);
+    }
     if (shows) this.#drawSheet();
     this.display.changed(this);
   }
@@ -399,7 +434,13 @@ export class Lesson {
     const kind = tick.hint === constants.HINT_WRITE ? constants.HINT_NONE : tick.hint;
     this.hint = kind === this.hint.kind ? { kind, age: this.hint.age + 1 } : { kind, age: 0 };
     if (kind === constants.HINT_NONE) return;
-    if (this.hint.age === patience) this.display.hint(this.#words(kind), this.tip[0], this.tip[1]);
+    const isDoubt = kind === constants.HINT_LIFTED_EARLY, { unjudged } = this;
+    if (isDoubt && unjudged && !unjudged.isDoubted) {
+      unjudged.isDoubted = true;
+      this.#drawInk();
+    }
+    const isOld = isDoubt && this.penDowns.at(-1) !== unjudged;  // one that was refused since has its own words
+    if (this.hint.age === patience && !isOld) this.display.hint(this.#words(kind), this.tip[0], this.tip[1]);
     this.penDown?.takeHint(kind);
   }
 
@@ -417,13 +458,13 @@ export class Lesson {
   }
 
   /** The ink that is to be seen of a pen-down. @param {"ink" | "pen"} layer
-   * @param {{guided: InkLine, own: InkLine[]}} penDown @param {boolean} isWhole */
-  #drawLines(layer, { guided, own }, isWhole) {
+   * @param {{guided: InkLine, own: InkLine[]}} penDown @param {boolean} isWhole @param {string} [usual] its colour */
+  #drawLines(layer, { guided, own }, isWhole, usual = colours.ink) {
     const context = this.paper.contexts[layer], ink = this.isGuided ? this.settings.ink : "own";
     const draw = (/** @type {InkLine} */ line, /** @type {string} */ colour, share = 1) =>
       (isWhole ? line.drawAll(context, colour, share) : line.drawOn(context, colour, share));
-    if (ink !== "own") draw(guided, colours.ink);
-    if (ink === "own") for (const line of own) draw(line, colours.ink);
+    if (ink !== "own") draw(guided, usual);
+    if (ink === "own") for (const line of own) draw(line, usual);
     if (ink === "both") for (const line of own) draw(line, colours.own, 0.25);
   }
 

@@ -12,9 +12,14 @@ export class PenDown {
   stray = new InkLine();   // of the guided pen, after it had finished a stroke, of no stroke
   /** @type {[number, number] | undefined} */
   finish;                  // where it finished a stroke; undefined: it did not [m]
+  /** @type {[number, number]} */
+  end = [0, 0];            // where it was lifted [m]
+  lifted = 0;              // index of the recorded tick in which it was
+  isBegun = false;         // it began a stroke, and whether it wrote it is not known yet
+  isDoubted = false;       // once it was over, that was left to the next one
   isPassed = false;        // its stroke was skipped
   isPalm = false;          // it was no writing
-  isBroken = false;        // it began the stroke, and did not finish it
+  isBroken = false;        // it began a stroke, and did not write it
   hint = constants.HINT_NONE;  // why it was not guided
 
   /** @param {number} begin [s] @param {number} recorded number of ticks that had been recorded */
@@ -29,6 +34,15 @@ export class PenDown {
     return this.finish !== undefined && Math.hypot(x - this.finish[0], y - this.finish[1]) > tail;
   }
 
+  /** Takes what became of its stroke, or that it began one. @param {number} events
+   * @param {[number, number]} tip of the pen [m] */
+  takeEvents(events, tip) {
+    if (events === 0) return;
+    if (events & constants.STROKE_FINISHED) this.finish ??= tip;
+    if (events & constants.STROKE_ABANDONED) this.isBroken = true;
+    this.isBegun = (events & constants.STROKE_STARTED) !== 0;
+  }
+
   /**
    * Takes a hint. The first one says where the pen was put down; that it was another stroke's start is seen later.
    * @param {number} kind
@@ -41,10 +55,10 @@ export class PenDown {
   /**
    * Why it did not write a stroke; without words where its hint says it.
    * @param {import("./desk.js").Stroke} stroke
-   * @param {number[]} tip where it was lifted [m]
    * @returns {string | undefined}
    */
-  whyNot({ start, path, length }, [x, y]) {
+  whyNot({ start, path, length }) {
+    const [x, y] = this.end;
     const toStart = Math.hypot(x - start[0], y - start[1]);
     const toEnd = Math.hypot(x - path[path.length - 2], y - path[path.length - 1]);
     if (this.isBroken) {

@@ -1,6 +1,11 @@
 // What the pen did, tick by tick, as numbers that another thread can be given at once.
+import { constants } from "../calligraphy.js";
 
 const perTick = 14;  // time, status, state, events, character, stroke, pen tip, force, and where the pointer was
+
+/** Events that say what became of a stroke. */
+export const verdicts = constants.STROKE_FINISHED | constants.STROKE_ABANDONED | constants.CHARACTER_FINISHED |
+                        constants.PAGE_FINISHED;
 
 /** @typedef {import("../calligraphy_layout.js").Structs["tick"]} Tick */
 
@@ -23,6 +28,18 @@ export class Recorder {
     this.numbers.set([time, status, state, events, character, stroke, ...tick.pen_tip, ...tick.page_force, ...own],
                      perTick * this.count);
     this.count += 1;
+  }
+
+  /**
+   * Moves the verdict of a tick to the earlier one in which the pen was lifted: a score takes the place, the time and
+   * the pen-down from there.
+   * @param {number} lifted index of that tick
+   * @param {Tick} tick
+   */
+  judge(lifted, tick) {
+    const events = perTick * lifted + 3;
+    this.numbers.set([this.numbers[events] | (tick.events & verdicts), tick.character, tick.stroke], events);
+    tick.events &= ~verdicts;
   }
 
   /** A copy of what was recorded. */
