@@ -128,7 +128,7 @@ testPage("a stroke lifted early is ink once the next is begun or the page is ove
          { character: "三" }, async (tab) => {
   await tab.setStrength(0);
   const [first, second, third] = parts.strokesOf("三");
-  const early = [beginningOf(first, 0.59), beginningOf(third, 0.69)];  // of a longer stroke, more is wanted
+  const early = [beginningOf(first, 0.59), beginningOf(third, 0.7)];  // of a longer stroke, more is wanted
   const inkOf = async (colour) => await tab.countPixels("ink", { colour }) > 0;
   const isDoubted = async (stroke) => {
     assert.equal(await progress(tab), `Stroke ${stroke} of 3`);
@@ -140,7 +140,12 @@ testPage("a stroke lifted early is ink once the next is begun or the page is ove
   await tab.write(early[0]);
   await isDoubted(1);
   if (screenshots) await tab.page.screenshot({ path: join(screenshots, "doubt.png") });
+  await tab.setStrength(60);
   await tab.pass(5000);
+  await tab.write(backwards(second));
+  await tab.pass(300);
+  assert.match(await tab.text("#hint"), /^(?!lifted early)./, "why the second one was refused");
+  assert.ok(await inkOf(colours.skipped), "the first one still waits");
   await tab.write(second);
   assert.equal(await progress(tab), "Stroke 3 of 3");
   assert.ok(await inkOf(colours.ink) && !await inkOf(colours.skipped), "both are ink");
@@ -155,15 +160,35 @@ testPage("a stroke lifted early is ink once the next is begun or the page is ove
   await isDoubted(3);
   assert.ok(wasInk === 0 && Math.abs(await tab.countPixels("ink") - once) < 0.05 * once);
   await tab.pass(700);
-  await isWritten(tab);
   assert.ok(!await inkOf(colours.skipped));
-  const { rows } = await tab.result();
-  assert.match(rows.Strokes, /^3 of 3/);
-  assert.equal(rows["Right at once"], "2 of 3");
+  const isScored = async () => {
+    await isWritten(tab);
+    const { rows } = await tab.result();
+    assert.match(rows.Strokes, /^3 of 3/);
+    assert.equal(rows["Right at once"], "1 of 3");
+  };
+  await isScored();
+  const { name, bytes } = await tab.save();
+  await tab.openFile(name, bytes);
+  await tab.pass(1500);
+  await isScored();
+});
+
+testPage("a stroke in doubt can be skipped", { character: "二" }, async (tab) => {
+  const skipped = async () => {
+    await tab.click("#skip");
+    assert.equal(await progress(tab), "Stroke 2 of 2");
+    return tab.fingerprint("ink");
+  };
+  const bare = await skipped(), [first] = parts.strokesOf("二");
+  await tab.click("#again");
+  await tab.write(beginningOf(first, 0.6));
+  assert.ok(await tab.countPixels("ink", { colour: colours.skipped }) > 0);
+  assert.equal(await skipped(), bare);
 });
 
 testPage("the time in which the last stroke was in doubt is not counted", { character: "一" }, async (tab) => {
-  await tab.write(beginningOf(parts.strokesOf("一")[0], 0.69), { pause: 20 });
+  await tab.write(beginningOf(parts.strokesOf("一")[0], 0.7), { pause: 20 });
   await tab.page.locator("#paper").hover({ position: { x: 9, y: 9 } });  // and the pen is elsewhere
   await tab.pass(1200);
   await isWritten(tab);
