@@ -183,7 +183,7 @@ CaptureVerdict StrokeSequencer::try_to_begin(Attempt& attempt, int stroke, const
 
 void StrokeSequencer::begin_following(Attempt& attempt, int stroke) noexcept {
   this->stroke(stroke).follower.begin(attempt.capture.begin(), attempt.capture.misplaced());
-  attempt.path.begin(attempt.capture.begin(), writer_.em);
+  attempt.path.begin(attempt.capture.begin(), writer_.em, 2.0 * hidden_way_);
 }
 
 void StrokeSequencer::follow(Attempt& attempt, int stroke, const PenState& pen) noexcept {
@@ -239,7 +239,7 @@ bool StrokeSequencer::is_finished(const PenState& pen) noexcept {
   due_->geometry.begin(attempt_.capture.begin());
   if (!start(writer_.stroke).bends) {
     begin_following(attempt_, writer_.stroke);
-    attempt_.path.begin(attempt_.capture.own_begin(), writer_.em);
+    attempt_.path.begin(attempt_.capture.own_begin(), writer_.em, 2.0 * hidden_way_);
   }
   write_on(pen);
 }
@@ -276,6 +276,7 @@ bool StrokeSequencer::is_finished(const PenState& pen) noexcept {
     lifted_at_ = pen.time;
     doubted_down_ = attempt_.capture.down();
     due_->geometry.reload();
+    set_out(tip);
   } else {
     abandon_stroke(tip);
   }

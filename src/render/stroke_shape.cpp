@@ -9,8 +9,8 @@ namespace calligraphy {
 namespace {
 
 constexpr double shortest = 1e-9;         // that is divided by [em]
+constexpr double least_roughness = 0.5;  // of a stroke that is hardly longer than a step, or doubles back
 constexpr int parts = 8;                  // of a step along a stroke, as fine as a pen's at 1 kHz
-constexpr double least_roughness = 0.5;   // of a stroke, however it doubles back
 
 }  // namespace
 
@@ -52,10 +52,6 @@ ShapeNodes nodes_on(std::span<const Point> points, const Point& origin, double e
   return nodes;
 }
 
-double roughness(double way, const ShapeNodes& nodes) noexcept {
-  return std::max(way - WrittenPath::spacing, 0.0) / nodes.coarse_length();
-}
-
 StrokeShape shape_of(const ActiveStroke& stroke, double em) {
   std::array<Point, WrittenPath::capacity> points;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -66,10 +62,10 @@ StrokeShape shape_of(const ActiveStroke& stroke, double em) {
   shape.em = em;
   shape.length = std::max(stroke.length() / em, shortest);
   shape.nodes = nodes_on(points, shape.origin, em);
-  shape.roughness = std::max(least_roughness, roughness(shape.length, shape.nodes));
+  shape.roughness = std::max(least_roughness, roughness(shape.length - WrittenPath::spacing, shape.nodes));
   shape.bulge = shape.nodes.bulge();
   WrittenPath exact;
-  exact.begin(shape.origin, em);
+  exact.begin(shape.origin, em, 0.0);
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Point step = (points[i] - points[i - 1]) / parts;
     for (int k = 1; k <= parts; ++k) exact.update(points[i - 1] + k * step, points[i - 1] + k * step);

@@ -27,8 +27,8 @@ struct ShapeNodes {
 /// Nodes on a path through at most 65 points [m, page], relative to `origin`, in a square of `em` [m].
 ShapeNodes nodes_on(std::span<const Point> points, const Point& origin, double em) noexcept;
 
-/// How much of a way [em] goes to and fro: 1 on a straight line, less on a short one.
-double roughness(double way, const ShapeNodes& nodes) noexcept;
+/// How much of a way [em] goes to and fro: 1 on a straight line.
+inline double roughness(double way, const ShapeNodes& nodes) noexcept { return way / nodes.coarse_length(); }
 
 /// What a stroke that is written is compared with.
 struct StrokeShape {

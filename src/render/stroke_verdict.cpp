@@ -21,7 +21,7 @@ constexpr double most_share = 0.3, most_length = 0.12;
 /// To and fro, relative to the stroke.
 constexpr double roughest = 1.35;
 /// A stroke bulges if by so much [em]; what is written for it then bulges by this share of that.
-constexpr double bent = 0.05, flattest = 0.25;
+constexpr double bent = 0.07, flattest = 0.25;
 
 /// Distances that the map may leave in the usual corridor, and those at which the follower is overruled [em].
 constexpr double most_misfit = 0.025, overruled_misfit = 0.028;

@@ -2,10 +2,11 @@
 
 namespace calligraphy {
 
-void WrittenPath::begin(const Point& tip, double em) noexcept {
-  points_[0] = points_[1] = hand_ = chord_from_ = tip;
+void WrittenPath::begin(const Point& tip, double em, double hidden) noexcept {
+  points_[0] = points_[1] = hand_ = chord_from_ = step_from_ = tip;
   count_ = 1;
   apart_ = spacing * em;
+  step_ = std::max(apart_, hidden);
   chord_ = chord * em;
   way_ = chords_ = 0.0;
 }
@@ -17,8 +18,12 @@ void WrittenPath::add_chord() noexcept {
 
 /// Keeps the last point.
 void WrittenPath::keep() noexcept {
-  way_ += (points_[count_] - points_[count_ - 1]).norm();
   const Point tip = points_[count_];
+  const double step = (tip - step_from_).norm();
+  if (step >= step_) {
+    way_ += step;
+    step_from_ = tip;
+  }
   if (count_ == capacity) {
     for (std::size_t i = 1; 2 * i < capacity; ++i) points_[i] = points_[2 * i];
     count_ = capacity / 2;

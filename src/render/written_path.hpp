@@ -1,6 +1,7 @@
 // What a pen has written of a stroke, however long it takes, in a bounded number of points.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -16,8 +17,9 @@ class WrittenPath {
   static constexpr double chord = 0.03;    ///< of the hand's way, which a fine tremor does not lengthen [em]
   static constexpr std::size_t capacity = 64;
 
-  /// The pen sets out at `tip` [m, page], in a square of `em` [m].
-  void begin(const Point& tip, double em) noexcept;
+  /// The pen sets out at `tip` [m, page], in a square of `em` [m]. Smaller motions than `hidden` [m] need not be the
+  /// hand's.
+  void begin(const Point& tip, double em, double hidden) noexcept;
 
   /// The pen is at `tip`, and the hand means to be at `hand` [m, page].
   void update(const Point& tip, const Point& hand) noexcept {
@@ -29,8 +31,8 @@ class WrittenPath {
 
   /// Where the pen was: the points that are kept, and the last one [m, page].
   std::span<const Point> points() const noexcept { return {points_.data(), count_ + 1}; }
-  /// Length of the pen's way from one kept point to the next [m].
-  double way() const noexcept { return way_; }
+  /// Length of the pen's way, in steps of `spacing`, or of what may be hidden if that is longer; without the first [m].
+  double way() const noexcept { return std::max(0.0, way_ - step_); }
   /// Length of the hand's way in chords [m].
   double chords() const noexcept { return chords_ + (hand_ - chord_from_).norm(); }
 
@@ -40,8 +42,8 @@ class WrittenPath {
 
   std::array<Point, capacity + 1> points_;  ///< kept ones, and the last one
   std::size_t count_ = 1;                   ///< of the kept ones
-  Point hand_ = Point::Zero(), chord_from_ = Point::Zero();
-  double apart_ = 0.0, chord_ = 0.0;
+  Point hand_ = Point::Zero(), chord_from_ = Point::Zero(), step_from_ = Point::Zero();
+  double apart_ = 0.0, chord_ = 0.0, step_ = 0.0;
   double way_ = 0.0, chords_ = 0.0;
 };
 

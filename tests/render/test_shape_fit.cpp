@@ -34,7 +34,7 @@ StrokeShape line(double length) { return shape_through(1, {{0.1, 0.5}, {0.1 + le
 
 ShapeMatch fit(const StrokeShape& shape, const std::vector<Point>& path) {
   WrittenPath written;
-  written.begin(path.front(), em);
+  written.begin(path.front(), em, 0.0);
   for (const Point& tip : path) written.update(tip, tip);
   ShapeFit fit;
   fit.begin(written, shape, Point::Zero());
@@ -129,7 +129,7 @@ TEST_CASE("a path of any length is fitted, in few steps, and nothing is allocate
     WrittenPath written;
     ShapeFit fit;
     const std::size_t before = calligraphy_test::allocations();
-    written.begin(shape.origin, em);
+    written.begin(shape.origin, em, 0.0);
     for (int i = 0; i <= 3000; ++i) {
       const double turn = 0.01 * i;
       const Point tip = shape.origin + em * length * i / 3000 * Point(std::cos(turn), std::sin(turn));
