@@ -56,9 +56,11 @@ Signals signals_of(const Recording& recording, int character) {
     const bool here = sample.character == character;
     if (writing && !(here && sample.state == InteractionState::writing)) {
       signals.bands.back().end = time;
-      signals.bands.back().abandoned = has_event(sample.events, TickEvent::stroke_abandoned);
       writing = false;
     }
+    // Perhaps in the air, or together with the start of the next attempt.
+    const bool is_abandoned = here && has_event(sample.events, TickEvent::stroke_abandoned);
+    if (is_abandoned && !signals.bands.empty()) signals.bands.back().abandoned = true;
     if (!here || !std::isfinite(time)) continue;
     if (!writing && sample.state == InteractionState::writing) {
       signals.bands.push_back({time, time, sample.stroke, false});

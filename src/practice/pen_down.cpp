@@ -39,6 +39,7 @@ std::vector<PenDown> pen_downs(const Recording& recording) {
   std::vector<PenDown> result;
   bool was_on_paper = false;  // in the last usable sample
   bool was_lost = false;      // since then
+  std::size_t written = 0;    // the pen-down that wrote last
   for (const RecordedSample& sample : recording.samples) {
     if (!is_usable(sample)) {
       was_lost = true;
@@ -50,6 +51,10 @@ std::vector<PenDown> pen_downs(const Recording& recording) {
       const bool continues = !result.empty() && ((was_on_paper && !was_lost) ||
                                                  sample.time <= result.back().samples.back().time + longest + rounding);
       if (!continues) result.emplace_back().character = sample.character;
+    }
+    // What became of a stroke may be known only in the air, or once the next pen-down has begun.
+    if (has_event(sample.events, TickEvent::stroke_finished) && !result.empty()) result[written].finished_stroke = true;
+    if (on_paper) {
       PenDown& down = result.back();
       if (has_event(sample.events, TickEvent::stroke_started) && !down.finished_stroke) {
         down.captured = down.samples.size();
@@ -57,8 +62,8 @@ std::vector<PenDown> pen_downs(const Recording& recording) {
       }
       down.pressed += std::max(0.0, sample.force.z());
       down.samples.push_back({sample.pen_tip.head<2>(), sample.time});
+      if (sample.state == InteractionState::writing) written = result.size() - 1;
     }
-    if (has_event(sample.events, TickEvent::stroke_finished) && !result.empty()) result.back().finished_stroke = true;
     was_on_paper = on_paper;
     was_lost = false;
   }

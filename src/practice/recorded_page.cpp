@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@
 namespace calligraphy {
 namespace {
 
-/// Limit on the median distance of the pen from the strokes as they were finished, for the same page [em].
+/// Limit on the median distance from a finished stroke of where the pen began or left it, for the same page [em].
 constexpr double max_finish_distance = 0.25;
 
 [[noreturn]] void refuse(const std::string& why) { throw ValueError("the recording is of another page: " + why); }
@@ -37,12 +38,12 @@ void require_indices(const PracticePage& page, const RecordedSample& sample, std
   }
 }
 
-double distance_to_finished(const PracticePage& page, const RecordedSample& sample) {
-  const auto [character, stroke] = finished_stroke(page, sample);
+double distance_from(const PracticePage& page, const StrokeIndex& finished, const Point& tip) {
+  const auto [character, stroke] = finished;
   const PlacedCharacter& placed = page.characters[character];
   double nearest = std::numeric_limits<double>::infinity();
   for (const StrokeElement& element : place_elements(strokes(placed.character)[stroke], placed.placement)) {
-    nearest = std::min(nearest, nearest_point(element, sample.pen_tip.head<2>()).distance);
+    nearest = std::min(nearest, nearest_point(element, tip).distance);
   }
   return nearest / placed.placement.em;
 }
@@ -63,6 +64,8 @@ void require_same_page(const PracticePage& page, const Recording& recording) {
   }
   std::vector<double> distances;
   double time = -std::numeric_limits<double>::infinity();
+  // Where the pen began the stroke that it wrote last, and where it left it: it may be elsewhere when that is decided.
+  std::optional<Point> begin, end;
   for (std::size_t i = 0; i < recording.samples.size(); ++i) {
     const RecordedSample& sample = recording.samples[i];
     require_indices(page, sample, i);
@@ -73,8 +76,13 @@ void require_same_page(const PracticePage& page, const Recording& recording) {
       }
       time = sample.time;
     }
-    const bool is_finish = has_event(sample.events, TickEvent::stroke_finished);
-    if (is_finish && sample.pen_tip.allFinite()) distances.push_back(distance_to_finished(page, sample));
+    if (has_event(sample.events, TickEvent::stroke_finished) && begin) {
+      const StrokeIndex finished = finished_stroke(page, sample);
+      distances.push_back(std::min(distance_from(page, finished, *begin), distance_from(page, finished, *end)));
+    }
+    if (sample.state != InteractionState::writing || !is_usable(sample)) continue;
+    end = sample.pen_tip.head<2>();
+    if (has_event(sample.events, TickEvent::stroke_started) || !begin) begin = end;
   }
   if (distances.empty()) return;
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);

@@ -323,14 +323,17 @@ class CharacterScorer {
 /// Adds what the session recorded of each character: strokes finished, time and force.
 void add_session(const Recording& recording, const PracticePage& page, std::vector<CharacterScore>& scores) {
   const RecordedSample* before = nullptr;
+  double written = not_measured;  // when the pen finished or left the stroke that it wrote last
   for (const RecordedSample& sample : recording.samples) {
+    const bool was_writing = before != nullptr && before->state == InteractionState::writing;
+    if (was_writing && sample.state != InteractionState::writing) written = sample.time;
     const auto active = static_cast<std::size_t>(sample.character);
     if (has_event(sample.events, TickEvent::stroke_finished)) {
       const StrokeIndex finished = finished_stroke(page, sample);
       CharacterScore& score = scores[finished.character];
       score.strokes[finished.stroke].completed = true;
       const bool is_last = has_event(sample.events, TickEvent::character_finished);
-      if (is_last && !score.pen_downs.empty()) score.time = sample.time - score.pen_downs.front().motion.begin;
+      if (is_last && !score.pen_downs.empty()) score.time = written - score.pen_downs.front().motion.begin;
     }
     if (active < scores.size()) {
       CharacterScore& score = scores[active];

@@ -19,6 +19,10 @@ constexpr double resting_height = 0.02;
 /// Samples between two calls of the progress function.
 constexpr std::size_t progress_interval = 256;
 
+/// The last stroke of a page, if it is in doubt, is finished once the pen has been in the air for a second; longest time
+/// for which a hand that has nothing more to write waits for that [s].
+constexpr double max_doubt = 1.1;
+
 Intention to_device(const Intention& page, const MotionMapping& mapping) {
   return {mapping.to_device(page.position), mapping.rotation.transpose() * page.velocity / mapping.scale, page.stylus};
 }
@@ -112,8 +116,9 @@ Recording follow_trace(const PracticePage& page, const PenTrace& trace, const Se
   }
   const TraceHand hand(trace, page.characters.front(), resting_point(page));
   double time = 0.0;
-  return run_session(page, options, [&](const HapticTick&, double seconds) -> std::optional<Intention> {
-    if (time > hand.duration()) return std::nullopt;
+  return run_session(page, options, [&](const HapticTick& tick, double seconds) -> std::optional<Intention> {
+    const double wait = tick.hint == WritingHint::lifted_early ? max_doubt : 0.0;
+    if (time > hand.duration() + wait) return std::nullopt;
     const TraceHand::Pen from = hand.at(time);
     time += seconds;
     return Intention{from.point, (hand.at(time).point - from.point) / seconds, from.stylus};

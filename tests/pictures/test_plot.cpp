@@ -68,8 +68,9 @@ class ShimDirectory {
   std::string search_path_;
 };
 
-/// Ten seconds: strokes 0 and 1 of character 0, an abandoned attempt between them, then character 1.
-Recording recording() {
+/// Ten seconds: strokes 0 and 1 of character 0, an attempt between them that counts as abandoned in this tick, then
+/// character 1.
+Recording recording(int abandoned = 4000) {
   Recording result;
   for (int i = 0; i < 10000; ++i) {
     RecordedSample sample;
@@ -79,7 +80,7 @@ Recording recording() {
     sample.stroke = sample.time < 2.0 || sample.character == 1 ? 0 : 1;
     if (within(1, 2) || within(3, 4) || within(5, 7) || within(8.5, 9)) sample.state = InteractionState::writing;
     if (i == 2000 || i == 7000) sample.events = TickEvent::stroke_finished;
-    if (i == 4000) sample.events = TickEvent::stroke_abandoned;
+    if (i == abandoned) sample.events = TickEvent::stroke_abandoned;
     sample.force = {std::sin(sample.time), std::cos(sample.time), 0.5};
     result.samples.push_back(sample);
   }
@@ -151,6 +152,17 @@ TEST_CASE("a hostile title is drawn, not run", "[practice]") {
   std::string expected = hostile;
   std::replace(expected.begin(), expected.end(), '\n', ' ');
   CHECK(document.child("svg").child("title").text().get() == expected);
+}
+
+TEST_CASE("an attempt is grey even if it counts as abandoned only in the air or with the next start", "[practice]") {
+  const ShimDirectory directory;
+  directory.provide_gnuplot("cat > script; echo '<svg><title/></svg>'");
+  force_plot(recording(), 0, "title");
+  const std::string script = directory.content("script");
+  for (const int tick : {4015, 5000}) {
+    force_plot(recording(tick), 0, "title");
+    CHECK(directory.content("script") == script);
+  }
 }
 
 TEST_CASE("no part of the title reaches gnuplot", "[practice]") {

@@ -141,7 +141,7 @@ TEST_CASE("options made for a motion scale guide the hand as much as at scale 1"
   const auto reduction = [&page](double scale, double made_for) {
     double errors[2] = {0.0, 0.0};
     for (const FeedbackMode mode : {FeedbackMode::vision, FeedbackMode::force}) {
-      for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         SessionOptions options = session(WriterSkill::novice(), mode, seed);
         options.renderer = RendererOptions::for_device(options.device, made_for);
         options.mapping = upright(page, scale);

@@ -136,6 +136,14 @@ TEST_CASE("what is read from a file is the recording that was written, to the la
   }
 }
 
+TEST_CASE("a file of a version without an option is read with its default", "[practice]") {
+  std::string text = text_of(hard_recordings().front().second);
+  const std::string option = "option tolerances.next_decides true\n";
+  REQUIRE(text.find(option) != std::string::npos);
+  text.erase(text.find(option), option.size());
+  CHECK(read(text).recording.setup->renderer.tolerances.next_decides);
+}
+
 TEST_CASE("a file that was cut off anywhere has all ticks that were written whole", "[practice]") {
   const Recording recording = hard_recordings().front().second;
   const std::string text = text_of(recording);

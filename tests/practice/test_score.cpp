@@ -10,6 +10,7 @@
 
 #include "../catch.hpp"
 #include "pages.hpp"
+#include "practice/pen_down.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::page_of;
@@ -792,8 +793,8 @@ TEST_CASE("a recording is of the page on which half of its strokes were finished
     recording.page = 0;
     int moved = 0;
     for (RecordedSample& sample : recording.samples) {
-      if (!has_event(sample.events, TickEvent::stroke_finished) || ++moved > elsewhere) continue;
-      sample.pen_tip.x() += 0.04;
+      if (moved < elsewhere) sample.pen_tip.x() += 0.04;
+      moved += has_event(sample.events, TickEvent::stroke_finished) ? 1 : 0;
     }
     CAPTURE(elsewhere);
     if (elsewhere == 2) {
@@ -802,6 +803,55 @@ TEST_CASE("a recording is of the page on which half of its strokes were finished
       CHECK_THROWS_AS(score_page(page, recording), ValueError);
     }
   }
+}
+
+TEST_CASE("a stroke that the next one decides was finished by the pen-down that wrote it", "[practice]") {
+  const PracticePage page = page_of("十");
+  const auto [start, end] = ends_of(page, 0, 0);
+  const auto [next_start, next_end] = ends_of(page, 0, 1);
+  Pen pen(page);
+  pen.draw(straight(start, start + 0.8 * (end - start)));
+  pen.draw(straight(next_start, next_start + 0.4 * (next_end - next_start)));
+  const TickEvent both = TickEvent::stroke_finished | TickEvent::stroke_started;
+  const auto& samples = pen.recording().samples;
+  REQUIRE(std::any_of(samples.begin(), samples.end(), [&](const auto& sample) { return sample.events == both; }));
+  const std::vector<PenDown> downs = pen_downs(pen.recording());
+  REQUIRE(downs.size() == 2);
+  CHECK(downs[0].finished_stroke);
+  CHECK(downs[0].stroke == 0);
+  CHECK_FALSE(downs[1].finished_stroke);
+  CHECK(downs[1].stroke == 1);
+  CHECK(downs[1].captured > 0);
+}
+
+TEST_CASE("the time of a character ends where the pen left its last stroke, however late that counts", "[practice]") {
+  for (const char* const text : {"十", "十一"}) {
+    const PracticePage page = page_of(text);
+    const auto [start, end] = ends_of(page, 0, 1);
+    Pen pen(page);
+    pen.draw(0, 0);
+    pen.draw(straight(start, start + 0.8 * (end - start)));
+    if (page.characters.size() > 1) pen.draw(1, 0);
+    const CharacterScore score = pen.scores().front();
+    CAPTURE(text);
+    REQUIRE(score.strokes_completed == 2);
+    REQUIRE(score.pen_downs.size() == 2);
+    const PenKinematics &first = score.pen_downs[0].motion, &last = score.pen_downs[1].motion;
+    CHECK(score.time == Approx(last.begin + last.duration - first.begin + 0.1));  // the lift is one tick later
+  }
+}
+
+TEST_CASE("a recording is of its page wherever the pen was in the air when a stroke was taken for finished",
+          "[practice]") {
+  const PracticePage page = page_of("一");
+  const auto [start, end] = ends_of(page, 0, 0);
+  Pen pen(page);
+  pen.draw(straight(start, start + 0.8 * (end - start)));
+  Recording recording = pen.recording();
+  for (RecordedSample& sample : recording.samples) {
+    if (sample.state == InteractionState::separation) sample.pen_tip.x() += 0.04;
+  }
+  CHECK(score_page(page, recording).front().strokes_completed == 1);
 }
 
 TEST_CASE("a force that pulls the pen into the paper is no pressure", "[practice]") {

@@ -226,6 +226,19 @@ TEST_CASE("a trace drawn exactly on the template is completed under guidance, an
   }
 }
 
+TEST_CASE("a hand on a trace waits for what becomes of the last stroke", "[practice]") {
+  const PracticePage page = page_of("国");  // its other strokes span its box, to which the trace is fitted
+  const PlacedCharacter& placed = page.characters.front();
+  std::vector<PenPath> paths = copy_of(placed.character);
+  const Point start = paths.back().front(), end = paths.back().back();
+  paths.back() = {start, start + 0.4 * (end - start), start + 0.8 * (end - start)};
+  const PenTrace trace = trace_of(placed.character.code, paths);
+  const Recording recording = follow_trace(page, trace, session({}, FeedbackMode::vision));
+  CHECK(has_event(recording.samples.back().events | recording.samples[recording.samples.size() - 2].events,
+                  TickEvent::page_finished));
+  CHECK(score_page(page, recording).front().strokes_completed == placed.character.stroke_count());
+}
+
 TEST_CASE("the device's path matches the same strokes as the pen's, accepted by the renderer or not", "[practice]") {
   const PracticePage page = page_of("北");
   const PlacedCharacter& placed = page.characters.front();

@@ -479,7 +479,9 @@ def count(drawn, character):
 
     ended = samples["events"] & int(cal.TickEvent.character_finished) != 0
     ended = np.flatnonzero(ended & (np.concatenate([samples["character"][:1], samples["character"][:-1]]) == character))
-    row["time"] = times[ended[0]] - row["pen_downs"][0][0] if len(ended) else math.nan
+    writing = samples["state"] == int(cal.InteractionState.writing)
+    left = np.flatnonzero(writing[:-1] & ~writing[1:]) + 1  # where the pen finished a stroke or left it
+    row["time"] = times[left[left <= ended[0]][-1]] - row["pen_downs"][0][0] if len(ended) else math.nan
     here = samples["character"] == character
     row["lost_samples"] = int((~is_usable(samples) & here).sum())
     row["peak_force"] = np.linalg.norm(samples["force"][here], axis=1).max(initial=0.0)
