@@ -66,6 +66,7 @@ void each_option(C& c, Options& o, const Exchange& exchange) {
   exchange(c.tolerance_corridor, o.tolerances.corridor);
   exchange(c.tolerance_coverage, o.tolerances.coverage);
   exchange(c.tolerance_slack, o.tolerances.slack);
+  exchange(c.tolerance_next_decides, o.tolerances.next_decides);
 
   exchange(c.limit_in_plane_rate, o.limits.in_plane_rate);
   exchange(c.limit_normal_rate, o.limits.normal_rate);

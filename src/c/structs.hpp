@@ -21,6 +21,9 @@ template <>
 inline constexpr std::size_t first_size<calligraphy_drawn_stroke> = 48;
 template <>
 inline constexpr std::size_t first_size<calligraphy_remark> = 72;
+template <>
+inline constexpr std::size_t first_size<calligraphy_renderer_options> =
+    offsetof(calligraphy_renderer_options, tolerance_next_decides);
 
 /// No struct of any version is larger: a size above this was never set.
 inline constexpr std::size_t max_size = 4096;

@@ -175,7 +175,7 @@ TEST_CASE("a law in C that fails is no force within 50 ms, and a status, until i
   std::vector<double> forces;  // of the ticks in which it fails
   std::size_t allocated = 0, answered = 0;
   write_beside([&](double time, const Eigen::Vector3d& position) {
-    told.fails = told.inputs.size() >= 150 && told.inputs.size() < 250;
+    told.fails = told.inputs.size() >= 690 && told.inputs.size() < 790;
     const std::size_t asked = told.inputs.size(), before = allocations();
     const calligraphy_tick tick = update(renderer.get(), time, position);
     const std::size_t allocated_now = allocations() - before;

@@ -84,6 +84,7 @@ const std::vector<std::pair<const char*, Change>> changes = {
     CHANGE(tolerance_corridor, tolerances.corridor, 0.07),
     CHANGE(tolerance_coverage, tolerances.coverage, 0.85),
     CHANGE(tolerance_slack, tolerances.slack, 0.05),
+    CHANGE(tolerance_next_decides, tolerances.next_decides, false),
     CHANGE(limit_in_plane_rate, limits.in_plane_rate, 110.0),
     CHANGE(limit_normal_rate, limits.normal_rate, INFINITY),
     CHANGE(limit_thermal_time_constant, limits.thermal_time_constant, 20.0),
@@ -164,6 +165,18 @@ TEST_CASE("every option of a renderer arrives and is reported") {
   }
 }
 
+TEST_CASE("options of the size that they first had leave nothing to the next stroke") {
+  const auto page = page_of("永");
+  const auto capabilities = profile();
+  auto options = options_for(capabilities), effective = options;
+  REQUIRE(options.tolerance_next_decides == 1);
+  options.size = static_cast<std::uint32_t>(offsetof(calligraphy_renderer_options, tolerance_next_decides));
+  const auto renderer = renderer_of(page.get(), capabilities, &options);
+  REQUIRE(calligraphy_renderer_effective_options(renderer.get(), &effective) == CALLIGRAPHY_OK);
+  CHECK(effective.tolerance_next_decides == 0);
+  CHECK(effective.tolerance_coverage == options.tolerance_coverage);
+}
+
 TEST_CASE("what was clipped is said, with the reason") {
   const auto capabilities = profile("omni");
   auto options = options_for(capabilities);
@@ -193,6 +206,7 @@ TEST_CASE("the tolerances of a level are those of C++") {
     CHECK(options.tolerance_direction == expected.direction);
     CHECK(options.tolerance_corridor == expected.corridor);
     CHECK(options.tolerance_coverage == expected.coverage);
+    CHECK((options.tolerance_next_decides != 0) == expected.next_decides);
   }
 }
 
@@ -534,7 +548,7 @@ TEST_CASE("structs have the sizes stated here: one that grows must state its fir
   CHECK(sizeof(calligraphy_guidance_terms) == 48);
   CHECK(sizeof(calligraphy_stroke_place) == 56);
   CHECK(sizeof(calligraphy_guidance_functions) == 56);
-  CHECK(sizeof(calligraphy_renderer_options) == 384);
+  CHECK(sizeof(calligraphy_renderer_options) == 392);
   CHECK(sizeof(calligraphy_tick) == 360);
   CHECK(sizeof(calligraphy_servo_state) == 192);
   CHECK(sizeof(calligraphy_drawn_stroke) == 56);

@@ -22,15 +22,15 @@ namespace {
 
 /// Where a pen means to be that writes a page, tick by tick [m, page]: with a tremor, and 1.5 mm beside the strokes.
 /// Between two strokes it is lifted.
-std::vector<Eigen::Vector3d> intended_path(const PracticePage& page, double speed = 0.1) {
+std::vector<Eigen::Vector3d> intended_path(const PracticePage& page, double speed = 0.1, double tremor = 3e-4) {
   Random random(7);
   std::vector<Eigen::Vector3d> path = {{0.5 * page.width, 0.5 * page.height, 0.02}};
   const auto go = [&](const Eigen::Vector3d& to) {
     const Eigen::Vector3d from = path.back();
     const int ticks = std::max(1, static_cast<int>((to - from).norm() / (speed * 1e-3)));
     for (int i = 1; i <= ticks; ++i) {
-      const double x = random.between(-3e-4, 3e-4);
-      path.push_back(from + (to - from) * i / ticks + Eigen::Vector3d(x, random.between(-3e-4, 3e-4), 0.0));
+      const double x = random.between(-tremor, tremor);
+      path.push_back(from + (to - from) * i / ticks + Eigen::Vector3d(x, random.between(-tremor, tremor), 0.0));
     }
   };
   for (const PlacedCharacter& placed : page.characters) {
@@ -291,7 +291,7 @@ TEST_CASE("a tick says where the next stroke begins, and in which direction") {
   auto stroke = sized<calligraphy_stroke>();
   int strokes_seen = 0;
   int last = -1;
-  for (const Eigen::Vector3d& point : intended_path(in_cpp)) {
+  for (const Eigen::Vector3d& point : intended_path(in_cpp, 0.1, 0.0)) {
     const Eigen::Vector3d position = upright.to_device(point);
     std::memcpy(state.position, position.data(), sizeof state.position);
     state.time += 1e-3;

@@ -548,6 +548,9 @@ typedef struct calligraphy_renderer_options {
   double energy_max_gap;  ///< longest time without a fresh sample for which it must hold [s]
 
   const calligraphy_guidance_functions* guidance_functions;  ///< own law, copied; null otherwise, and in results
+
+  int32_t tolerance_next_decides;  ///< a stroke that is perhaps too short is finished once the next one is begun
+  int32_t reserved;                ///< 0
 } calligraphy_renderer_options;
 
 /// Which options to begin with.
@@ -589,13 +592,15 @@ typedef enum calligraphy_interaction_state {
   CALLIGRAPHY_WRITING = 3       ///< it writes the active stroke
 } calligraphy_interaction_state;
 
-/// What happened in a tick; bit flags.
+/// What happened in a tick; bit flags. What becomes of a stroke is told at its end, within 50 ms of the lift, or together
+/// with the next CALLIGRAPHY_STROKE_STARTED, which begins the next stroke or writes this one anew. The last stroke of a
+/// character may be finished in the tick of the touch that goes on, and that of a page after 1 s in the air.
 typedef enum calligraphy_event {
   CALLIGRAPHY_CONTACT = 1,              ///< the pen touched the paper
   CALLIGRAPHY_LIFT = 2,                 ///< the pen left the paper
   CALLIGRAPHY_STROKE_STARTED = 4,       ///< the first stretch of the active stroke was written
   CALLIGRAPHY_FEATURE_PASSED = 8,       ///< a feature point of the active stroke was passed
-  CALLIGRAPHY_STROKE_FINISHED = 16,     ///< a stroke was written to its end; the tick's `stroke` is already the next
+  CALLIGRAPHY_STROKE_FINISHED = 16,     ///< a stroke was written; the tick's `stroke` is already the next
   CALLIGRAPHY_STROKE_ABANDONED = 32,    ///< a stroke was left before its end; its trace is to be cleared
   CALLIGRAPHY_CHARACTER_FINISHED = 64,  ///< the last stroke of a character was finished
   CALLIGRAPHY_PAGE_FINISHED = 128       ///< the last character of the page was finished
@@ -611,7 +616,7 @@ typedef enum calligraphy_tick_status {
   CALLIGRAPHY_TICK_BAD_LAW = 5        ///< the law failed, or its force is not finite: the force ramps down to zero
 } calligraphy_tick_status;
 
-/// Why a pen on the paper is not guided.
+/// Why a pen on the paper is not guided, and what a lifted one left in doubt.
 typedef enum calligraphy_hint {
   CALLIGRAPHY_HINT_NONE = 0,             ///< guided, not on the paper, or back on it once everything is written
   CALLIGRAPHY_HINT_WRITE = 1,            ///< at the start of the stroke that is due: write on
@@ -623,8 +628,7 @@ typedef enum calligraphy_hint {
   CALLIGRAPHY_HINT_OFF_STROKE = 7,       ///< writing, but too far from the stroke or pulled aside
   CALLIGRAPHY_HINT_LIFT_FIRST = 8,       ///< lift the pen first: the previous stroke has just been finished
   CALLIGRAPHY_HINT_WARM_MOTORS = 9,      ///< guided, but warm motors permit less force than that takes: let them rest
-  CALLIGRAPHY_HINT_LIFTED_EARLY = 10     ///< in the air, after a stroke that is perhaps too short: begin the next one,
-                                         ///< or write it again
+  CALLIGRAPHY_HINT_LIFTED_EARLY = 10     ///< in the air, after a perhaps too short stroke: go on, or write it again
 } calligraphy_hint;
 
 /// Result of one tick.
