@@ -119,7 +119,8 @@ void SimulatedWriter::think(double seconds) {
   const double em = page_[static_cast<std::size_t>(character_)].placement.em;
   switch (phase_) {
     case Phase::pause:
-      if (phase_time_ >= skill_.pause) begin(Phase::approach);
+      if (phase_time_ < skill_.pause) return;
+      accepted() ? look_on() : begin(Phase::approach);  // what became of the stroke may be shown late
       return;
     case Phase::approach: {
       const double way = (belief_(plan_[0].at(0.0)) + aim_error_ - from_.head<2>()).norm();
@@ -148,16 +149,7 @@ void SimulatedWriter::think(double seconds) {
     case Phase::raise: {
       if (phase_time_ < raising_time + skill_.visual_delay) return;  // long enough to see what became of the stroke
       if (waiting_for_lift()) return;
-      const bool next = accepted();
-      attempt_ = next ? 0 : attempt_ + 1;
-      character_ = next ? seen_.sight.character : character_;
-      stroke_ = next ? seen_.sight.stroke : stroke_;
-      if (attempt_ >= max_attempts || character_ >= static_cast<int>(page_.size())) {
-        begin(Phase::done);
-        return;
-      }
-      plan_attempt();
-      begin(Phase::pause);
+      look_on();
       return;
     }
     case Phase::done:
@@ -174,6 +166,20 @@ bool SimulatedWriter::waiting_for_lift() const {
 
 /// Whether the display has moved on to another stroke.
 bool SimulatedWriter::accepted() const { return seen_.sight.character != character_ || seen_.sight.stroke != stroke_; }
+
+/// Turns to the stroke on display, or to another attempt at the last one.
+void SimulatedWriter::look_on() {
+  const bool next = accepted();
+  attempt_ = next ? 0 : attempt_ + 1;
+  character_ = next ? seen_.sight.character : character_;
+  stroke_ = next ? seen_.sight.stroke : stroke_;
+  if (attempt_ >= max_attempts || character_ >= static_cast<int>(page_.size())) {
+    begin(Phase::done);
+    return;
+  }
+  plan_attempt();
+  begin(Phase::pause);
+}
 
 void SimulatedWriter::follow_plan(double seconds) {
   const double em = page_[static_cast<std::size_t>(character_)].placement.em;

@@ -67,3 +67,22 @@ TEST_CASE("the same character, index and seed is the same draw, another index or
   CHECK((miss - first_miss(with_another, skill, 3)).norm() < 1e-5);  // at another place on the page
   CHECK((miss - first_miss(alone, skill, 4)).norm() > 1e-3);
 }
+
+TEST_CASE("a writer who is shown only in the pause that a stroke was finished goes on with the next", "[practice]") {
+  WriterSkill skill;
+  skill.pause = 0.35;
+  SimulatedWriter writer(calligraphy_test::page_of("十"), skill, 1);
+  VisualFeedback sight;
+  double lifted = 0.0;  // for how long [s]
+  bool has_written = false;
+  for (double time = 0.0; time < 10.0; time += 0.002) {
+    const Intention pen = writer.update(sight, 0.002);
+    const bool on_paper = pen.position.z() < 0.0;
+    if (on_paper && lifted > 0.0) break;
+    has_written = has_written || on_paper;
+    if (has_written && !on_paper) lifted += 0.002;
+    sight = {pen.position, 0, lifted > 0.15 ? 1 : 0, on_paper};
+  }
+  CHECK(lifted > 0.5);
+  CHECK(writer.intended_stroke() == 1);
+}

@@ -106,6 +106,7 @@ class SimulatedWriter {
   void plan_elements(int stroke, bool backwards);
   void see(const VisualFeedback& sight);
   void think(double seconds);
+  void look_on();
   void follow_plan(double seconds);
   void leave_element();
   void correct(double seconds);
