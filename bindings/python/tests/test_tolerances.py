@@ -46,6 +46,7 @@ def test_the_presets_differ_in_the_order_of_their_names():
     for name in ("start_distance", "direction", "distinction", "corridor", "slack"):
         assert getattr(lenient, name) > getattr(normal, name) > getattr(strict, name)
     assert lenient.coverage < normal.coverage < strict.coverage
+    assert lenient.next_decides and normal.next_decides and not strict.next_decides
     assert normal == cal.StrokeTolerances() == cal.RendererOptions().tolerances and normal.coverage >= 0.9
     printed = cal.RendererOptions.wang2006().tolerances
     assert (printed.first_stretch, printed.distinction, printed.coverage) == (0.0, math.inf, 0.0)
@@ -65,14 +66,16 @@ def test_a_stroke_begins_within_the_distance_of_its_preset(tolerances):
 
 
 @pytest.mark.parametrize("tolerances", PRESETS.values(), ids=PRESETS)
-def test_a_lift_finishes_a_stroke_of_which_enough_is_covered(tolerances):
+def test_a_lift_finishes_a_stroke_of_which_enough_is_covered_and_leaves_some_in_doubt(tolerances):
     length = Pen().line.length
     hidden = 2 * DESKTOP.coulomb_friction / cal.RendererOptions().grip_stiffness
-    needed = tolerances.coverage - (0.04 * tolerances.slack + hidden) / length
-    for share in (0.5, needed - 0.03, needed + 0.03):
+    needed = tolerances.coverage - (max(0.04 * tolerances.slack, 0.05 * length) + hidden) / length
+    for share in (0.5, needed - 0.01, needed + 0.03):
         ticks = Pen(tolerances=tolerances).write(0.0, share)
+        is_in_doubt = tolerances.next_decides and 0.5 < share < needed
         assert has(ticks, cal.TickEvent.stroke_finished) == (share > needed)
-        assert has(ticks, cal.TickEvent.stroke_abandoned) == (share < needed)
+        assert has(ticks, cal.TickEvent.stroke_abandoned) == (share < needed and not is_in_doubt)
+        assert (hints(ticks)[-1] == "lifted_early") == is_in_doubt
         covered = ticks["covered"][ticks["state"] == int(cal.InteractionState.writing)]
         assert covered[-1] == pytest.approx(share, abs=0.02) and (np.diff(covered) >= 0.0).all()
 
