@@ -19,8 +19,8 @@ constexpr double resting_height = 0.02;
 /// Samples between two calls of the progress function.
 constexpr std::size_t progress_interval = 256;
 
-/// The last stroke of a page, if it is in doubt, is finished once the pen has been in the air for a second; longest time
-/// for which a hand that has nothing more to write waits for that [s].
+/// The last stroke of a page, if it is in doubt, is finished once the pen has been in the air for a second: longest
+/// time for which a hand that has nothing more to write waits for that [s].
 constexpr double max_doubt = 1.1;
 
 Intention to_device(const Intention& page, const MotionMapping& mapping) {

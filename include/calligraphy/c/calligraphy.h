@@ -592,9 +592,9 @@ typedef enum calligraphy_interaction_state {
   CALLIGRAPHY_WRITING = 3       ///< it writes the active stroke
 } calligraphy_interaction_state;
 
-/// What happened in a tick; bit flags. What becomes of a stroke is told at its end, within 50 ms of the lift, or together
-/// with the next CALLIGRAPHY_STROKE_STARTED, which begins the next stroke or writes this one anew. The last stroke of a
-/// character may be finished in the tick of the touch that goes on, and that of a page after 1 s in the air.
+/// What happened in a tick; bit flags. What becomes of a stroke is told at its end, within 50 ms of the lift, or with the
+/// next CALLIGRAPHY_STROKE_STARTED, which begins the next stroke or writes this one anew. The last stroke of a character
+/// may be finished in the tick of the touch that goes on, and that of a page after 1 s in the air.
 typedef enum calligraphy_event {
   CALLIGRAPHY_CONTACT = 1,              ///< the pen touched the paper
   CALLIGRAPHY_LIFT = 2,                 ///< the pen left the paper

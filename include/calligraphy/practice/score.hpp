@@ -42,7 +42,7 @@ struct PenDownScore {
 /// if the character was not completed.
 struct CharacterScore {
   char32_t character = 0;  ///< its Unicode code point
-  /// From the first pen-down to the tick in which the pen finished the last stroke, or left it; NaN unless the character
+  /// From the first pen-down to the tick in which the pen finished the last stroke or left it; NaN unless the character
   /// was completed [s].
   double time = not_measured;
   double rms_error = not_measured;  ///< RMS distance of the pen from the strokes written, over its path length [m]
