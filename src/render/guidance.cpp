@@ -172,7 +172,10 @@ Point Guidance::way_to_start(const WriterState& writer) const noexcept {
 /// the new one sets in.
 Point Guidance::faded(const PenState& pen, const WriterState& writer, const Point& sent) noexcept {
   constexpr TickEvent jumps = TickEvent::stroke_started | TickEvent::feature_passed | TickEvent::contact;
-  constexpr TickEvent ends = TickEvent::stroke_finished | TickEvent::stroke_abandoned | TickEvent::lift;
+  // A stroke that is decided in the air, or by the next one, has let go before.
+  const TickEvent ends = writer.state == InteractionState::calibration
+                             ? TickEvent::lift | TickEvent::stroke_finished | TickEvent::stroke_abandoned
+                             : TickEvent::lift;
   const GuidanceOptions& options = effective_.options.guidance;
   const bool changed = writer.guided != guided_;
   guided_ = writer.guided;

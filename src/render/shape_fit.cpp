@@ -86,8 +86,8 @@ void ShapeFit::map() noexcept {
   sums_[0][0] = 0.0;
 }
 
-/// sums_[i + 1][j + 1] is the sum of the pair (i, j). A pair that follows in both counts twice, so that shortcuts cost as
-/// much as the way round.
+/// sums_[i + 1][j + 1] is the sum of the pair (i, j). A pair that follows in both counts twice, so that a shortcut costs
+/// as much as the way round.
 void ShapeFit::add_rows() noexcept {
   for (std::size_t k = 0; k < rows_a_step; ++k, ++row_) {
     const std::size_t i = row_ - 1, first = i > band ? i - band : 0, last = std::min(i + band, nodes - 1);

@@ -1,6 +1,7 @@
 #include "stroke_sequencer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -23,6 +24,9 @@ constexpr double min_held_weight = 0.5;
 /// is allowed for, and takes hold again within one.
 constexpr double max_detour = 2.0;
 
+/// A shorter stroke is a dot [em], and how long after its end it is looked at [s].
+constexpr double longest_dot = 0.15, dot_time = 0.25;
+
 /// The last stroke of a page, if it is in doubt, was written once the pen has been in the air for this time [s].
 constexpr double max_doubt = 1.0;
 
@@ -43,7 +47,8 @@ StrokeSequencer::StrokeSequencer(std::vector<PlacedCharacter> page, const Render
       leads_to_start_(options.guidance.to_start),
       lets_go_(lets_go),
       mapping_(mapping),
-      compliance_(mapping.scale * mapping.scale / options.grip_stiffness) {
+      compliance_(mapping.scale * mapping.scale / options.grip_stiffness),
+      fit_steps_(std::max(1, static_cast<int>(std::ceil(1000.0 / options.servo_rate)))) {
   const double dry_friction = capabilities.coulomb_friction + options.paper.friction.coefficient * usual_pressure;
   hidden_way_ = mapping.scale * dry_friction / options.grip_stiffness;
   restart();
@@ -205,7 +210,8 @@ void StrokeSequencer::write_on(const PenState& pen) noexcept {
   writer_.covered = due_->follower.covered();
 }
 
-/// At its end, once its shape is known; a dot where the pen leaves it.
+/// At its end, once its shape is known. Nearly any small motion passes the end of a dot: that is looked at a little
+/// later, or where the pen leaves it.
 bool StrokeSequencer::is_finished(const PenState& pen) noexcept {
   if (tolerances_.coverage == 0.0) return writer_.contact.finished;
   if (!pen.on_paper) {
@@ -214,8 +220,9 @@ bool StrokeSequencer::is_finished(const PenState& pen) noexcept {
   }
   if (look_ == Look::at_lift) look_ = Look::none;  // the pen was bouncing
   if (!due_->follower.is_at_end(hidden_way_) || !due_->follower.accepts(2.0 * hidden_way_)) return false;
+  if (!passed_end_) passed_end_at_ = pen.time;
   passed_end_ = true;
-  if (lift_between_strokes_ && is_dot(due_->shape)) return false;
+  if (due_->shape.length < longest_dot && pen.time - passed_end_at_ < dot_time) return false;
   look_for(Look::at_end);
   return fit_.is_done() && !is_vetoed(fit_.match(), due_->shape, tolerances_);
 }
@@ -226,8 +233,12 @@ bool StrokeSequencer::is_finished(const PenState& pen) noexcept {
     look_ = purpose;
     fit_.begin(attempt_.path, due_->shape, attempt_.capture.misplaced());
   } else {
-    fit_.step();
+    step_fit();
   }
+}
+
+void StrokeSequencer::step_fit() noexcept {
+  for (int i = 0; i < fit_steps_; ++i) fit_.step();
 }
 
 [[gnu::noinline]] void StrokeSequencer::start_stroke(const PenState& pen) noexcept {
@@ -259,8 +270,9 @@ bool StrokeSequencer::is_finished(const PenState& pen) noexcept {
 /// A pen that comes back to the paper sooner finds it decided.
 [[gnu::noinline]] void StrokeSequencer::decide(const PenState& pen) noexcept {
   const bool is_urgent = pen.contact && writer_.state == InteractionState::separation;
-  while (!fit_.step() && is_urgent) {
-  }
+  do {
+    step_fit();
+  } while (is_urgent && !fit_.is_done());
   if (!fit_.is_done()) return;
   look_ = Look::none;
   const Point tip = pen.tip.head<2>();

@@ -40,7 +40,10 @@ class StrokeSequencer {
   PreparedStroke& stroke(int index) const noexcept { return character_->strokes[static_cast<std::size_t>(index)]; }
   const StrokeStart& start(int index) const noexcept { return character_->starts[static_cast<std::size_t>(index)]; }
   /// The stroke after the due one, while the pen may begin it and so finish the due one; -1 if there is none.
-  int next_in_doubt() const noexcept { return in_doubt_ && writer_.stroke + 1 < stroke_count() ? writer_.stroke + 1 : -1; }
+  int next_in_doubt() const noexcept {
+    const int next = writer_.stroke + 1;
+    return in_doubt_ && next < stroke_count() ? next : -1;
+  }
 
   /// A pen-down, taken for one of the strokes.
   struct Attempt {
@@ -66,6 +69,7 @@ class StrokeSequencer {
   void write_on(const PenState& pen) noexcept;
   bool is_finished(const PenState& pen) noexcept;
   void look_for(Look purpose) noexcept;
+  void step_fit() noexcept;
 
   void start_stroke(const PenState& pen) noexcept;
   void leave_stroke(const PenState& pen) noexcept;
@@ -99,8 +103,10 @@ class StrokeSequencer {
   Attempt attempt_;                         ///< to write the due stroke
   Attempt next_;                            ///< the same pen-down, were the next one meant
   ShapeFit fit_;
+  int fit_steps_;                           ///< a tick: one at 1 kHz, more at lower rates
   Look look_ = Look::none;
   bool passed_end_ = false;                 ///< the pen was at the end, having written enough
+  double passed_end_at_ = 0.0;              ///< since when [s]
   bool in_doubt_ = false;                   ///< perhaps the due stroke was written
   double lifted_at_ = 0.0;                  ///< since when [s]
   Point doubted_down_ = Point::Zero();      ///< where the pen was put down for it [m, page]

@@ -20,21 +20,26 @@ constexpr double most_share = 0.3, most_length = 0.12;
 
 /// To and fro, relative to the stroke.
 constexpr double roughest = 1.35;
-/// A stroke bulges if by so much [em]; what is written for it then bulges by this share of that.
-constexpr double bent = 0.07, flattest = 0.25;
+/// A stroke bends if it bulges by so much [em], and by this share of its length in addition; what is written for it then
+/// bulges by this share of that.
+constexpr double bent = 0.045, bent_share = 0.035, flattest = 0.25;
 
 /// Distances that the map may leave in the usual corridor, and those at which the follower is overruled [em].
-constexpr double most_misfit = 0.025, overruled_misfit = 0.028;
+constexpr double most_misfit = 0.025, overruled_misfit = 0.029;
 /// Sine of the turn: that of a long stroke, and more for a short one [em].
 constexpr double turn = 0.48, short_turn = 0.03;
 constexpr double narrowest = 0.5, least_ahead = 0.5;
-constexpr double most_moved = 0.15;                              // [em]
-constexpr double end_distance = 0.2, end_of_dot = 0.16, end_share_of_length = 0.1;  // [em], [em], [1]
+/// Distances of the middles, and of the ends: more for a long stroke; and that at which the follower is overruled [em].
+constexpr double most_moved = 0.15, end_distance = 0.2, end_of_dot = 0.16, end_share_of_length = 0.1;
+constexpr double farthest_end = 0.25;
 
-double scaled(double misfit, const StrokeTolerances& tolerances) { return misfit * tolerances.corridor / usual_corridor; }
+double scaled(double misfit, const StrokeTolerances& tolerances) {
+  return misfit * tolerances.corridor / usual_corridor;
+}
 
 bool is_another_shape(const ShapeMatch& match, const StrokeShape& stroke) {
-  return match.roughness > roughest || (stroke.bulge > bent && match.bulge < flattest * stroke.bulge);
+  const bool bends = stroke.bulge > bent + bent_share * stroke.length;
+  return match.roughness > roughest || (bends && match.bulge < flattest * stroke.bulge);
 }
 
 }  // namespace
@@ -47,18 +52,21 @@ double least_share_of_way(double length, const StrokeTolerances& tolerances) noe
 
 bool is_vetoed(const ShapeMatch& match, const StrokeShape& stroke, const StrokeTolerances& tolerances) noexcept {
   // People make a dot three times as long, and the map hardly changes the size of one.
-  const double most_misfit_of = scaled(overruled_misfit, tolerances) * std::max(1.0, match.ahead);
-  return is_another_shape(match, stroke) || match.misfit > most_misfit_of;
+  const double larger = std::max(1.0, match.ahead);
+  return is_another_shape(match, stroke) || match.end > farthest_end ||
+         match.misfit > larger * scaled(overruled_misfit, tolerances);
 }
 
 StrokeVerdict verdict_on(const ShapeMatch& match, const StrokeShape& stroke, double hidden,
                          const StrokeTolerances& tolerances) noexcept {
-  const double length = stroke.length;
-  const bool is_of_shape = match.extent >= least_extent && match.misfit <= scaled(most_misfit, tolerances) && match.turn <= turn + short_turn / length &&
-                           match.narrowest > narrowest && match.ahead >= least_ahead && match.moved <= most_moved &&
-                           match.end <= std::max(end_distance, end_of_dot + end_share_of_length * length) + hidden &&
-                           match.extent <= 1.0 + most_share + most_length / length;
-  if (!is_of_shape || is_another_shape(match, stroke)) return StrokeVerdict::refused;
+  if (is_another_shape(match, stroke)) return StrokeVerdict::refused;
+  const double length = stroke.length, misfit = scaled(most_misfit, tolerances);
+  const double from_end = std::max(end_distance, end_of_dot + end_share_of_length * length) + hidden;
+  const bool fits = match.misfit <= misfit && match.turn <= turn + short_turn / length && match.narrowest > narrowest;
+  const bool is_there = match.moved <= most_moved && match.end <= from_end && match.ahead >= least_ahead;
+  const bool is_as_long = match.extent >= least_extent && match.extent <= 1.0 + most_share + most_length / length;
+  if (!fits || !is_there || !is_as_long) return StrokeVerdict::refused;
+
   const double extent = match.extent + hidden / length, least = least_share_of_way(length, tolerances);
   const double most_missing = one_sided * tolerances.slack;
   const bool is_whole = extent > tolerances.coverage - nearly ||

@@ -14,9 +14,6 @@ enum class StrokeVerdict {
   finished
 };
 
-/// Nearly any small motion passes the end of a stroke that is so short: it is judged where the pen leaves it.
-constexpr bool is_dot(const StrokeShape& stroke) noexcept { return stroke.length < 0.15; }
-
 /// The least share of a stroke of `length` [em] that the pen's way must have: less of a short one.
 double least_share_of_way(double length, const StrokeTolerances& tolerances) noexcept;
 

@@ -23,6 +23,7 @@ class Observer {
       run_ = &runs_[static_cast<std::size_t>(due_)];
       if (++run_->contacts == 1) run_->meant_at_first = intended == due_;
     }
+    if (has_event(tick.events, TickEvent::stroke_finished)) finish(tick, intended);
     if (run_ != nullptr) judge(tick);
     due_ = tick.character == 0 ? tick.stroke : static_cast<int>(lines_.size());
   }
@@ -30,11 +31,20 @@ class Observer {
   std::vector<StrokeRun> runs() const { return runs_; }
 
  private:
-  void judge(const HapticTick& tick) {
-    if (has_event(tick.events, TickEvent::stroke_finished)) {
-      run_->finished = true;
-      run_->at_once = run_->contacts == 1 && run_->meant_at_first;
+  /// The due stroke: at its end, in the air, or because this contact has begun the next one.
+  void finish(const HapticTick& tick, int intended) {
+    StrokeRun& written = runs_[static_cast<std::size_t>(due_)];
+    if (has_event(tick.events, TickEvent::stroke_started)) {
+      --written.contacts;
+      run_ = &runs_[static_cast<std::size_t>(due_) + 1];
+      run_->contacts = 1;
+      run_->meant_at_first = intended == due_ + 1;
     }
+    written.finished = true;
+    written.at_once = written.contacts == 1 && written.meant_at_first;
+  }
+
+  void judge(const HapticTick& tick) {
     if (tick.state == InteractionState::separation) {
       run_ = nullptr;
     } else if (tick.time - touched_ > settling) {

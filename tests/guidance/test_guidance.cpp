@@ -283,15 +283,24 @@ TEST_CASE("strokes of people, as they wrote them, begin at the first touch and m
   CHECK(finished.percent() >= 84.7);
 }
 
-TEST_CASE("every stroke of every imported character is finished by a pen that draws it exactly", "[guidance]") {
+TEST_CASE("every stroke of every imported character is finished by a pen that draws it exactly, with every preset",
+          "[guidance]") {
   const auto file = package_data("CALLIGRAPHY_CHARACTER_FILE");
   if (file.empty()) return;
   const std::vector<Character> imported = CharacterSet::open(file.string()).list().characters;
   const auto nothing_else = [](const std::vector<StrokeLine>&, std::size_t, Random&) { return std::vector<Attempt>(); };
-  const SequenceResult result = judge_attempts(imported, on("desktop", 0.04), nothing_else);
-  INFO(list(result));
   CHECK(imported.size() == 9574);
-  CHECK(result.not_finished_exactly == 0);
+  for (const StrokeTolerances& tolerances :
+       {StrokeTolerances::normal(), StrokeTolerances::lenient(), StrokeTolerances::strict()}) {
+    SequenceOptions options = on("desktop", 0.04);
+    options.renderer.tolerances = tolerances;
+    std::vector<Character> some;  // of the other presets an eighth: all take half a minute each
+    const std::size_t apart = tolerances == StrokeTolerances::normal() ? 1 : 8;
+    for (std::size_t i = 0; i < imported.size(); i += apart) some.push_back(imported[i]);
+    const SequenceResult result = judge_attempts(some, options, nothing_else);
+    INFO(list(result));
+    CHECK(result.not_finished_exactly == 0);
+  }
 }
 
 TEST_CASE("everything() finishes as many characters as vision and reduces the error as much as the default",
