@@ -38,7 +38,7 @@ TickEvent draw(StrokeSequencer& sequencer, const Stroke& stroke, const Placement
       move(tip, true);
     }
   }
-  for (int i = 0; i < ShapeFit::max_steps; ++i) move(tip, false);
+  for (int i = 0; i < ShapeFit::max_steps + 2; ++i) move(tip, false);
   return events;
 }
 

@@ -24,30 +24,38 @@ Point direction(const Point& way) {
 }  // namespace
 
 void ShapeFit::begin(const WrittenPath& written, const StrokeShape& stroke, const Point& misplaced) noexcept {
+  written_ = &written;
   stroke_ = &stroke;
   misplaced_ = misplaced / stroke.em;
-  pen_ = nodes_on(written.points(), stroke.origin, stroke.em);
-  match_.extent = written.chords() / stroke.em / stroke.chords;
-  match_.roughness = roughness(written.way() / stroke.em, pen_) / stroke.roughness;
-  pairs_ = nodes;
-  for (std::size_t i = 0; i < nodes; ++i) pen_paired_[i] = stroke_paired_[i] = static_cast<unsigned char>(i);
-  round_ = 1;
-  row_ = 0;
+  round_ = 0;
 }
 
 bool ShapeFit::step() noexcept {
   if (is_done()) return true;
-  if (row_ == 0) {
+  if (round_ == 0) {
+    read_path();
+    round_ = 1;
+    is_mapped_ = false;
+  } else if (!is_mapped_) {
     map();
-    row_ = 1;
-  } else if (row_ <= nodes) {
+    is_mapped_ = true;
+    row_ = 0;
+  } else if (row_ < nodes) {
     add_rows();
   } else {
     pair_up();
-    row_ = 0;
+    is_mapped_ = false;
     if (++round_ > rounds) measure();
   }
   return is_done();
+}
+
+void ShapeFit::read_path() noexcept {
+  pen_ = nodes_on(*written_, stroke_->origin, stroke_->em);
+  match_.extent = written_->chords() / stroke_->em / stroke_->chords;
+  match_.roughness = roughness(written_->way() / stroke_->em, pen_) / stroke_->roughness;
+  pairs_ = nodes;
+  for (std::size_t i = 0; i < nodes; ++i) pen_paired_[i] = stroke_paired_[i] = static_cast<unsigned char>(i);
 }
 
 /// The affine map from the stroke's nodes to those of the pen that they are paired with.
@@ -82,30 +90,35 @@ void ShapeFit::map() noexcept {
   match_.moved = (Point(px - sx, py - sy) - misplaced_).norm();
   const Point even(0.5 * (a + d), 0.5 * (c - b)), odd(0.5 * (a - d), 0.5 * (c + b));
   match_.narrowest = even.norm() - odd.norm();
-  sums_[0].fill(infinite);
-  sums_[0][0] = 0.0;
 }
 
-/// sums_[i + 1][j + 1] is the sum of the pair (i, j). A pair that follows in both counts twice, so that a shortcut costs
-/// as much as the way round.
+/// A pair that follows in both paths counts twice, so that a shortcut costs as much as the way round.
 void ShapeFit::add_rows() noexcept {
-  for (std::size_t k = 0; k < rows_a_step; ++k, ++row_) {
-    const std::size_t i = row_ - 1, first = i > band ? i - band : 0, last = std::min(i + band, nodes - 1);
-    const auto& before = sums_[row_ - 1];
-    auto& sums = sums_[row_];
-    std::array<double, nodes> squares, above;
-    for (std::size_t j = first; j <= last; ++j) {
+  for (std::size_t n = 0; n < rows_a_step; ++n, ++row_) {
+    const std::size_t i = row_, first = i > band ? 0 : band - i, last = std::min(2 * band, nodes - 1 + band - i);
+    auto& sums = sums_[i];
+    sums.fill(infinite);
+    std::array<double, 2 * band + 1> squares, above;
+    for (std::size_t k = first; k <= last; ++k) {
+      const std::size_t j = i + k - band;
       const double x = pen_.x[i] - mapped_.x[j], y = pen_.y[i] - mapped_.y[j];
-      squares[j] = x * x + y * y;
-      const double diagonal = before[j] + squares[j];
-      above[j] = diagonal < before[j + 1] ? diagonal : before[j + 1];
+      squares[k] = x * x + y * y;
+      above[k] = infinite;
     }
-    double left = sums[first] = infinite;
-    for (std::size_t j = first; j <= last; ++j) {
-      left = (above[j] < left ? above[j] : left) + squares[j];
-      sums[j + 1] = left;
+    if (i == 0) {
+      above[first] = 0.0;
+    } else {
+      const auto& before = sums_[i - 1];
+      for (std::size_t k = first; k <= last; ++k) {
+        const double diagonal = before[k + 1] + squares[k];
+        above[k] = diagonal < before[k + 2] ? diagonal : before[k + 2];
+      }
     }
-    if (last + 2 < sums.size()) sums[last + 2] = infinite;
+    double left = infinite;
+    for (std::size_t k = first; k <= last; ++k) {
+      left = (above[k] < left ? above[k] : left) + squares[k];
+      sums[k + 1] = left;
+    }
   }
 }
 
@@ -121,11 +134,13 @@ void ShapeFit::pair_up() noexcept {
     const double x = pen_.x[i] - mapped_.x[j], y = pen_.y[i] - mapped_.y[j], square = x * x + y * y;
     square_ += square;
     if (i == 0 && j == 0) return;
-    const double diagonal = sums_[i][j] + square, above = sums_[i][j + 1], left = sums_[i + 1][j];
-    const bool is_diagonal = diagonal <= above && diagonal <= left;
-    const bool goes_up = j == 0 || (i > 0 && (is_diagonal || above <= left));
-    if (j > 0 && (!goes_up || is_diagonal)) --j;
+    const std::size_t k = j + band + 1 - i;
+    const double left = sums_[i][k - 1], above = i > 0 ? sums_[i - 1][k + 1] : infinite;
+    const double diagonal = i > 0 ? sums_[i - 1][k] + square : infinite;
+    const bool is_diagonal = i > 0 && j > 0 && diagonal <= above && diagonal <= left;
+    const bool goes_up = is_diagonal || j == 0 || (i > 0 && above <= left);
     if (goes_up) --i;
+    if (is_diagonal || !goes_up) --j;
   }
 }
 

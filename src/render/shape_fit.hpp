@@ -29,9 +29,9 @@ struct ShapeMatch {
 /// products, divisions and square roots: the same to the last bit everywhere. Never allocates.
 class ShapeFit {
  public:
-  /// The character is misplaced by `misplaced` [m].
+  /// The path as it is in the first step. The character is misplaced by `misplaced` [m]. Both must stay where they are.
   void begin(const WrittenPath& written, const StrokeShape& stroke, const Point& misplaced) noexcept;
-  /// Works on, for about 0.2 us. Returns whether match() is known.
+  /// Works on, for at most about 0.2 us. Returns whether match() is known.
   bool step() noexcept;
   bool is_done() const noexcept { return round_ > rounds; }
   const ShapeMatch& match() const noexcept { return match_; }
@@ -42,22 +42,25 @@ class ShapeFit {
   static constexpr int rounds = 3;
   static constexpr std::size_t nodes = ShapeNodes::count;
   /// Nodes that are paired are at most this far from each other along both paths.
-  static constexpr std::size_t band = 10;
+  static constexpr std::size_t band = 5;
 
+  void read_path() noexcept;
   void map() noexcept;
   void add_rows() noexcept;
   void pair_up() noexcept;
   void measure() noexcept;
 
+  const WrittenPath* written_ = nullptr;
   const StrokeShape* stroke_ = nullptr;
   ShapeNodes pen_;     ///< relative to the stroke's first point
   ShapeNodes mapped_;  ///< the stroke's, to where the pen's lie
   Point misplaced_ = Point::Zero();
   double turned_ = 0.0, along_ = 0.0;  ///< sine and cosine of the similarity nearest to the map, times its size
-  int round_ = rounds + 1;
-  std::size_t row_ = 0;  ///< the next one
-  /// Least sums of squared distances up to each pair of nodes, with those beyond the band infinite.
-  std::array<std::array<double, nodes + 2>, nodes + 1> sums_;
+  int round_ = rounds + 1;  ///< from 1; 0 before the path is read
+  std::size_t row_ = 0;  ///< the next one of the sums; before and after all of them the map and the pairs are due
+  bool is_mapped_ = false;
+  /// Least sums of squared distances up to each pair of nodes: sums_[i][j - i + band + 1], infinite beyond the band.
+  std::array<std::array<double, 2 * band + 3>, nodes> sums_;
   std::array<unsigned char, 2 * nodes> pen_paired_, stroke_paired_;
   std::size_t pairs_ = 0;
   double square_ = 0.0;  ///< sum of the squared distances of the pairs

@@ -140,6 +140,7 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
   writer_.contact = nearest;
 }
 
+/// Another attempt, from where the pen is on the paper.
 void StrokeSequencer::set_out(const Point& tip) noexcept {
   const auto put_down = [&](Attempt& attempt, int stroke) {
     attempt.capture.put_down(tip, character_->starts, static_cast<std::size_t>(stroke));
@@ -223,8 +224,9 @@ bool StrokeSequencer::is_finished(const PenState& pen) noexcept {
   if (!passed_end_) passed_end_at_ = pen.time;
   passed_end_ = true;
   if (due_->shape.length < longest_dot && pen.time - passed_end_at_ < dot_time) return false;
+  const bool is_known = look_ == Look::at_end && fit_.is_done();
   look_for(Look::at_end);
-  return fit_.is_done() && !is_vetoed(fit_.match(), due_->shape, tolerances_);
+  return is_known && !is_vetoed(fit_.match(), due_->shape, tolerances_);
 }
 
 /// Once for each purpose, in the course of several ticks.
@@ -270,10 +272,11 @@ void StrokeSequencer::step_fit() noexcept {
 /// A pen that comes back to the paper sooner finds it decided.
 [[gnu::noinline]] void StrokeSequencer::decide(const PenState& pen) noexcept {
   const bool is_urgent = pen.contact && writer_.state == InteractionState::separation;
-  do {
+  while (is_urgent && !fit_.is_done()) fit_.step();
+  if (!fit_.is_done()) {
     step_fit();
-  } while (is_urgent && !fit_.is_done());
-  if (!fit_.is_done()) return;
+    return;
+  }
   look_ = Look::none;
   const Point tip = pen.tip.head<2>();
   const double hidden = 2.0 * hidden_way_;
@@ -288,7 +291,7 @@ void StrokeSequencer::step_fit() noexcept {
     lifted_at_ = pen.time;
     doubted_down_ = attempt_.capture.down();
     due_->geometry.reload();
-    set_out(tip);
+    if (writer_.state != InteractionState::separation) set_out(tip);
   } else {
     abandon_stroke(tip);
   }
@@ -297,7 +300,8 @@ void StrokeSequencer::step_fit() noexcept {
 [[gnu::noinline]] void StrokeSequencer::finish_stroke(const Point& tip) noexcept {
   writer_.events |= TickEvent::stroke_finished;
   attempt_.capture.written(due_->geometry.start(), attempt_.capture.down());
-  const bool must_lift = lift_between_strokes_ && writer_.state != InteractionState::separation;
+  const bool is_on_paper = writer_.state != InteractionState::separation;
+  const bool must_lift = lift_between_strokes_ && is_on_paper;
   const int next = writer_.stroke + 1;
   if (next < stroke_count()) {
     activate(writer_.character, next);
@@ -314,7 +318,7 @@ void StrokeSequencer::step_fit() noexcept {
   }
   if (must_lift) {
     writer_.phase = WritingPhase::finished;
-  } else if (!all_written()) {
+  } else if (is_on_paper && !all_written()) {
     set_out(tip);
   }
 }
@@ -322,7 +326,7 @@ void StrokeSequencer::step_fit() noexcept {
 [[gnu::noinline]] void StrokeSequencer::abandon_stroke(const Point& tip) noexcept {
   writer_.events |= TickEvent::stroke_abandoned;
   due_->geometry.reload();
-  set_out(tip);
+  if (writer_.state != InteractionState::separation) set_out(tip);
 }
 
 /// The last stroke of a character, if in doubt, was written if the pen goes on with the next one, or nothing is left.

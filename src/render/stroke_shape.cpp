@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "written_path.hpp"
-
 namespace calligraphy {
 namespace {
 
 constexpr double shortest = 1e-9;         // that is divided by [em]
 constexpr double least_roughness = 0.5;  // of a stroke that is hardly longer than a step, or doubles back
-constexpr int parts = 8;                  // of a step along a stroke, as fine as a pen's at 1 kHz
+constexpr int parts = 16;                // of the way from node to node, as fine as a pen's at 1 kHz
 
 }  // namespace
 
@@ -33,17 +31,18 @@ double ShapeNodes::coarse_length() const noexcept {
   return std::max(length, shortest);
 }
 
-ShapeNodes nodes_on(std::span<const Point> points, const Point& origin, double em) noexcept {
-  std::array<double, WrittenPath::capacity + 1> arcs;
-  arcs[0] = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) arcs[i] = arcs[i - 1] + (points[i] - points[i - 1]).norm();
+ShapeNodes nodes_on(const WrittenPath& path, const Point& origin, double em) noexcept {
+  const auto points = path.points();
+  const auto arcs = path.arcs();
+  const std::size_t kept = arcs.size();
+  const double length = arcs[kept - 1] + (points[kept] - points[kept - 1]).norm();
+  const double step = length / (ShapeNodes::count - 1), to_em = 1.0 / em;
   ShapeNodes nodes;
-  const double step = arcs[points.size() - 1] / (ShapeNodes::count - 1), to_em = 1.0 / em;
   std::size_t at = 0;
   for (std::size_t k = 0; k < ShapeNodes::count; ++k) {
     const double arc = step * static_cast<double>(k);
-    while (at + 2 < points.size() && arc > arcs[at + 1]) ++at;
-    const double size = arcs[at + 1] - arcs[at];
+    while (at + 1 < kept && arc > arcs[at + 1]) ++at;
+    const double size = (at + 1 < kept ? arcs[at + 1] : length) - arcs[at];
     const double share = size > 0.0 ? std::clamp((arc - arcs[at]) / size, 0.0, 1.0) : 0.0;
     const Point node = to_em * (points[at] + share * (points[at + 1] - points[at]) - origin);
     nodes.x[k] = node.x();
@@ -53,23 +52,26 @@ ShapeNodes nodes_on(std::span<const Point> points, const Point& origin, double e
 }
 
 StrokeShape shape_of(const ActiveStroke& stroke, double em) {
-  std::array<Point, WrittenPath::capacity> points;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    points[i] = stroke.at(stroke.length() * static_cast<double>(i) / (points.size() - 1)).point;
-  }
   StrokeShape shape;
-  shape.origin = points.front();
+  shape.origin = stroke.start();
   shape.em = em;
   shape.length = std::max(stroke.length() / em, shortest);
-  shape.nodes = nodes_on(points, shape.origin, em);
+  Point before = shape.origin;
+  WrittenPath exact;
+  exact.begin(before, em, 0.0);
+  for (std::size_t i = 0; i < ShapeNodes::count; ++i) {
+    const Point point = stroke.at(stroke.length() * static_cast<double>(i) / (ShapeNodes::count - 1)).point;
+    const Point node = (point - shape.origin) / em;
+    shape.nodes.x[i] = node.x();
+    shape.nodes.y[i] = node.y();
+    for (int k = 1; k <= parts; ++k) {
+      const Point tip = before + (point - before) * k / parts;
+      exact.update(tip, tip);
+    }
+    before = point;
+  }
   shape.roughness = std::max(least_roughness, roughness(shape.length - WrittenPath::spacing, shape.nodes));
   shape.bulge = shape.nodes.bulge();
-  WrittenPath exact;
-  exact.begin(shape.origin, em, 0.0);
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const Point step = (points[i] - points[i - 1]) / parts;
-    for (int k = 1; k <= parts; ++k) exact.update(points[i - 1] + k * step, points[i - 1] + k * step);
-  }
   shape.chords = std::max(exact.chords() / em, shortest);
   return shape;
 }

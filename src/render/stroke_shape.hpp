@@ -3,9 +3,10 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 
 #include <calligraphy/collision/active_stroke.hpp>
+
+#include "written_path.hpp"
 
 namespace calligraphy {
 
@@ -24,8 +25,8 @@ struct ShapeNodes {
   double coarse_length() const noexcept;
 };
 
-/// Nodes on a path through at most 65 points [m, page], relative to `origin`, in a square of `em` [m].
-ShapeNodes nodes_on(std::span<const Point> points, const Point& origin, double em) noexcept;
+/// Nodes on a path, relative to `origin` [m, page], in a square of `em` [m].
+ShapeNodes nodes_on(const WrittenPath& path, const Point& origin, double em) noexcept;
 
 /// How much of a way [em] goes to and fro: 1 on a straight line.
 inline double roughness(double way, const ShapeNodes& nodes) noexcept { return way / nodes.coarse_length(); }

@@ -5,6 +5,7 @@ namespace calligraphy {
 void WrittenPath::begin(const Point& tip, double em, double hidden) noexcept {
   points_[0] = points_[1] = hand_ = chord_from_ = step_from_ = tip;
   count_ = 1;
+  arcs_[0] = 0.0;
   apart_ = spacing * em;
   step_ = std::max(apart_, hidden);
   chord_ = chord * em;
@@ -25,12 +26,16 @@ void WrittenPath::keep() noexcept {
     step_from_ = tip;
   }
   if (count_ == capacity) {
-    for (std::size_t i = 1; 2 * i < capacity; ++i) points_[i] = points_[2 * i];
     count_ = capacity / 2;
     apart_ *= 2.0;
+    for (std::size_t i = 1; i < count_; ++i) {
+      points_[i] = points_[2 * i];
+      arcs_[i] = arcs_[i - 1] + (points_[i] - points_[i - 1]).norm();
+    }
   }
-  points_[count_++] = tip;
   points_[count_] = tip;
+  arcs_[count_] = arcs_[count_ - 1] + (tip - points_[count_ - 1]).norm();
+  points_[++count_] = tip;
 }
 
 }  // namespace calligraphy

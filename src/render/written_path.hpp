@@ -31,6 +31,8 @@ class WrittenPath {
 
   /// Where the pen was: the points that are kept, and the last one [m, page].
   std::span<const Point> points() const noexcept { return {points_.data(), count_ + 1}; }
+  /// Arc lengths of the points that are kept [m].
+  std::span<const double> arcs() const noexcept { return {arcs_.data(), count_}; }
   /// Length of the pen's way, in steps of `spacing`, or of what may be hidden if that is longer; without the first [m].
   double way() const noexcept { return std::max(0.0, way_ - step_); }
   /// Length of the hand's way in chords [m].
@@ -41,7 +43,8 @@ class WrittenPath {
   [[gnu::noinline]] void keep() noexcept;
 
   std::array<Point, capacity + 1> points_;  ///< kept ones, and the last one
-  std::size_t count_ = 1;                   ///< of the kept ones
+  std::array<double, capacity> arcs_;       ///< of the kept ones
+  std::size_t count_ = 1;                   ///< of these
   Point hand_ = Point::Zero(), chord_from_ = Point::Zero(), step_from_ = Point::Zero();
   double apart_ = 0.0, chord_ = 0.0, step_ = 0.0;
   double way_ = 0.0, chords_ = 0.0;

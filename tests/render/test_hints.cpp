@@ -125,7 +125,7 @@ TEST_CASE("a pen that slides on after a stroke is told to lift first", "[render]
   OnPage page;
   page.down(page.start(0));
   page.go(page.end(0));
-  CHECK(page.rest(20).hint == WritingHint::lift_first);
+  CHECK(page.rest(25).hint == WritingHint::lift_first);
   CHECK(page.renderer.last().stroke == 1);
   CHECK(page.go(page.start(1)).hint == WritingHint::lift_first);
   CHECK((page.renderer.last().to_start).norm() < 1e-12);  // of the stroke that is due now

@@ -129,7 +129,7 @@ TEST_CASE("the last stroke of a character was finished: until the pen is lifted 
   const auto way = path(renderer, 0);
   pen.go(at(way.front(), 0.005));
   for (const Point& point : way) pen.go(at(point, -0.001));
-  for (int i = 0; i < 20; ++i) pen.at(at(way.back(), -0.001));
+  for (int i = 0; i < 25; ++i) pen.at(at(way.back(), -0.001));
   REQUIRE(renderer.last().stroke == 1);
   CHECK_FALSE(renderer.skip_stroke());
   pen.go(at(way.back(), 0.005));

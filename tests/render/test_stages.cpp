@@ -186,7 +186,7 @@ TEST_CASE("a misplaced pen is pulled to the stroke's start, but only on the pape
     pen.go(at(stroke.start + 0.005 * stroke.along, -0.001));
     CHECK(renderer.last().state == InteractionState::writing);
     pen.go(at(stroke.end, -0.001));
-    rest(pen, at(stroke.end, -0.001), 20);  // it is looked at
+    rest(pen, at(stroke.end, -0.001), 25);  // it is looked at
     CHECK(renderer.last().stroke == 1);
     pen.go(at(astray, -0.001));  // not lifted yet: the next stroke may not begin
     rest(pen, at(astray, -0.001), 100);
@@ -501,7 +501,7 @@ TEST_CASE(
       states += i % 2 == 1 ? " CS WS SS" : " CS SS";
       events += i % 2 == 1 ? "sa" : "";
     }
-    rest(pen, at(stroke.start, 0.0035), 20);
+    rest(pen, at(stroke.start, 0.0035), 25);
     CHECK(watch.states == states);
     CHECK(watch.events == events);
     CHECK(renderer.last().stroke == 0);

@@ -38,7 +38,7 @@ PenState pen_at(const Point& tip, bool contact) {
 /// Whether the pen, lifted at `tip`, has written the stroke.
 bool is_finished_in_air(StrokeSequencer& sequencer, const Point& tip) {
   bool finished = false;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 25; ++i) {
     finished = finished || has_event(sequencer.update(pen_at(tip, false)).events, TickEvent::stroke_finished);
   }
   return finished;
@@ -162,7 +162,7 @@ TEST_CASE("a page that is finished by sliding guides nobody, from that tick on",
   StrokeSequencer sequencer = sequencer_of(U'一', options);
   bool finished = false;
   std::vector<Point> way = way_along(sequencer, 0);
-  way.insert(way.end(), 20, way.back());
+  way.insert(way.end(), 25, way.back());
   sequencer.update(pen_at(way.front(), false));
   for (const Point& tip : way) {
     const WriterState& writer = sequencer.update(pen_at(tip, true));
