@@ -10,6 +10,7 @@ namespace {
 /// How much spread of a stroke it takes to believe that it is not in its own size and slant [em^2].
 constexpr double prior = 0.002;
 
+constexpr std::size_t quarter = ShapeNodes::count / 4;
 constexpr std::size_t rows_a_step = 8;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -124,8 +125,8 @@ void ShapeFit::add_rows() noexcept {
 
 /// Goes back along the least sums.
 void ShapeFit::pair_up() noexcept {
-  pairs_ = 0;
-  square_ = 0.0;
+  pairs_ = later_pairs_ = 0;
+  square_ = later_square_ = 0.0;
   std::size_t i = nodes - 1, j = nodes - 1;
   while (true) {
     pen_paired_[pairs_] = static_cast<unsigned char>(i);
@@ -133,6 +134,10 @@ void ShapeFit::pair_up() noexcept {
     ++pairs_;
     const double x = pen_.x[i] - mapped_.x[j], y = pen_.y[i] - mapped_.y[j], square = x * x + y * y;
     square_ += square;
+    if (i >= quarter) {
+      later_square_ += square;
+      ++later_pairs_;
+    }
     if (i == 0 && j == 0) return;
     const std::size_t k = j + band + 1 - i;
     const double left = sums_[i][k - 1], above = i > 0 ? sums_[i - 1][k + 1] : infinite;
@@ -146,8 +151,9 @@ void ShapeFit::pair_up() noexcept {
 
 void ShapeFit::measure() noexcept {
   const ShapeNodes& stroke = stroke_->nodes;
-  constexpr std::size_t last = nodes - 1, quarter = nodes / 4;
+  constexpr std::size_t last = nodes - 1;
   match_.misfit = std::sqrt(square_ / static_cast<double>(pairs_));
+  match_.later_misfit = std::sqrt(later_square_ / static_cast<double>(later_pairs_));
   const double size = std::sqrt(turned_ * turned_ + along_ * along_);
   match_.turn = along_ > 0.0 ? std::abs(turned_) / size : 2.0;
   const Point start = pen_.at(0) - stroke.at(0) - misplaced_, end = pen_.at(last) - stroke.at(last) - misplaced_;
@@ -156,6 +162,7 @@ void ShapeFit::measure() noexcept {
   match_.early = -end.dot(direction(stroke.at(last) - stroke.at(last - quarter)));
   const Point chord = stroke.chord();
   match_.ahead = chord.norm() > shortest_chord ? pen_.chord().dot(chord) / chord.squaredNorm() : 1.0;
+  match_.own_end = (pen_.chord() - chord).norm();
   match_.bulge = pen_.bulge();
 }
 

@@ -12,10 +12,12 @@ namespace calligraphy {
 /// What a fit tells. Distances are in em, the mean offset of the character taken off.
 struct ShapeMatch {
   double misfit = 0.0;     ///< mean distance (RMS) that the map from the stroke to the pen leaves
+  double later_misfit = 0.0;  ///< the same after the first quarter of the pen's path, on which guidance may pull it aside
   double turn = 0.0;       ///< sine of the angle by which the pen's path is turned; 2 beyond a right angle
   double narrowest = 1.0;  ///< least singular value of the map [1]
   double moved = 0.0;      ///< distance of the middles
   double end = 0.0;        ///< distance of the ends
+  double own_end = 0.0;    ///< the same with the starts on each other
   double late = 0.0;       ///< how far after the start it was begun, along the stroke
   double early = 0.0;      ///< how far before the end it was ended, likewise
   double extent = 1.0;     ///< length of the hand's way, as a share of an exact one's [1]
@@ -63,7 +65,8 @@ class ShapeFit {
   std::array<std::array<double, 2 * band + 3>, nodes> sums_;
   std::array<unsigned char, 2 * nodes> pen_paired_, stroke_paired_;
   std::size_t pairs_ = 0;
-  double square_ = 0.0;  ///< sum of the squared distances of the pairs
+  std::size_t later_pairs_ = 0;
+  double square_ = 0.0, later_square_ = 0.0;  ///< sums of the squared distances of the pairs; later: ShapeMatch
   ShapeMatch match_;
 };
 

@@ -53,8 +53,8 @@ double least_share_of_way(double length, const StrokeTolerances& tolerances) noe
 bool is_vetoed(const ShapeMatch& match, const StrokeShape& stroke, const StrokeTolerances& tolerances) noexcept {
   // People make a dot three times as long, and the map hardly changes the size of one.
   const double larger = std::max(1.0, match.ahead);
-  return is_another_shape(match, stroke) || match.end > farthest_end ||
-         match.misfit > larger * scaled(overruled_misfit, tolerances);
+  return is_another_shape(match, stroke) || match.own_end > farthest_end + end_share_of_length * stroke.length ||
+         std::min(match.misfit, match.later_misfit) > larger * scaled(overruled_misfit, tolerances);
 }
 
 StrokeVerdict verdict_on(const ShapeMatch& match, const StrokeShape& stroke, double hidden,
