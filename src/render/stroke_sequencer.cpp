@@ -196,7 +196,7 @@ void StrokeSequencer::follow(Attempt& attempt, int stroke, const PenState& pen) 
   if (!pen.on_paper) return;
   const Point tip = pen.tip.head<2>(), hand = this->hand(pen);
   this->stroke(stroke).follower.update(tip, hand);
-  attempt.path.update(tip, hand);
+  attempt.path.update(tip);
 }
 
 void StrokeSequencer::write_on(const PenState& pen) noexcept {
@@ -206,7 +206,7 @@ void StrokeSequencer::write_on(const PenState& pen) noexcept {
   hand_ = hand(pen);
   if (pen.on_paper) {
     due_->follower.update(tip, hand_);
-    attempt_.path.update(tip, hand_);
+    attempt_.path.update(tip);
   }
   writer_.covered = due_->follower.covered();
 }
@@ -338,10 +338,13 @@ void StrokeSequencer::step_fit() noexcept {
   }
   const int next = writer_.character + 1;
   const Point tip = pen.tip.head<2>();
-  const bool goes_on = next < page_.size()
-                           ? pen.contact && page_[next].box.exteriorDistance(tip) < character_->box.exteriorDistance(tip)
-                           : !pen.contact && pen.time - lifted_at_ >= max_doubt;
-  if (!goes_on) return;
+  if (next == page_.size()) {
+    if (pen.contact || pen.time - lifted_at_ < max_doubt) return;
+  } else {
+    const Point from_next = tip - page_[next].starts.front().point;
+    const bool is_nearer = from_next.squaredNorm() < (tip - due_->geometry.start()).squaredNorm();
+    if (!pen.contact || !is_nearer || !is_within(page_[next].box, tip)) return;
+  }
   in_doubt_ = false;
   writer_.events |= TickEvent::stroke_finished | TickEvent::character_finished;
   if (next == page_.size()) writer_.events |= TickEvent::page_finished;
@@ -391,20 +394,21 @@ WritingPhase StrokeSequencer::phase(const Point& tip) const noexcept {
 }
 
 WritingPhase StrokeSequencer::phase_before_stroke(const Point& tip) const noexcept {
-  const CaptureVerdict verdict = attempt_.capture.verdict();
-  if (verdict == CaptureVerdict::another_stroke) return WritingPhase::other_stroke;
-  // The first stretch leads away from the start.
-  const double from_start = std::min(writer_.to_start.norm(), (attempt_.capture.begin() - due_->geometry.start()).norm());
-  const bool is_late = writer_.rests && writer_.contact.arc > end_share * due_->geometry.length();
-  if (is_late && (tip - due_->geometry.end()).norm() < from_start) return WritingPhase::at_end;
+  if (look_ == Look::decides) return WritingPhase::away;
   const auto phase_at_start = [](CaptureVerdict of) {
     return of == CaptureVerdict::wrong_direction ? WritingPhase::turned_away : WritingPhase::at_start;
   };
   const double near = tolerances_.start_distance * writer_.em;
   if (next_in_doubt() >= 0) {
     const double from_next = (tip - start(next_in_doubt()).point).norm();
-    if (from_next <= near && from_next < from_start) return phase_at_start(next_.capture.verdict());
+    if (from_next <= near && from_next < writer_.to_start.norm()) return phase_at_start(next_.capture.verdict());
   }
+  const CaptureVerdict verdict = attempt_.capture.verdict();
+  if (verdict == CaptureVerdict::another_stroke) return WritingPhase::other_stroke;
+  // The first stretch leads away from the start.
+  const double from_start = std::min(writer_.to_start.norm(), (attempt_.capture.begin() - due_->geometry.start()).norm());
+  const bool is_late = writer_.rests && writer_.contact.arc > end_share * due_->geometry.length();
+  if (is_late && (tip - due_->geometry.end()).norm() < from_start) return WritingPhase::at_end;
   if (from_start <= near) return phase_at_start(verdict);
   return writer_.rests ? WritingPhase::in_middle : WritingPhase::away;
 }
@@ -432,7 +436,7 @@ bool StrokeSequencer::keeps_hold() const noexcept {
 /// later stroke. A pen that rests elsewhere on the stroke is free forwards and resisted backwards, towards the start.
 bool StrokeSequencer::is_guided() const noexcept {
   if (writer_.phase == WritingPhase::guided) return true;
-  if (writer_.state != InteractionState::calibration) return false;
+  if (writer_.state != InteractionState::calibration || look_ == Look::decides) return false;
   switch (writer_.phase) {
     case WritingPhase::page_written:
     case WritingPhase::finished:

@@ -64,10 +64,7 @@ StrokeShape shape_of(const ActiveStroke& stroke, double em) {
     const Point node = (point - shape.origin) / em;
     shape.nodes.x[i] = node.x();
     shape.nodes.y[i] = node.y();
-    for (int k = 1; k <= parts; ++k) {
-      const Point tip = before + (point - before) * k / parts;
-      exact.update(tip, tip);
-    }
+    for (int k = 1; k <= parts; ++k) exact.update(before + (point - before) * k / parts);
     before = point;
   }
   shape.roughness = std::max(least_roughness, roughness(shape.length - WrittenPath::spacing, shape.nodes));

@@ -18,8 +18,8 @@ constexpr double nearly = 0.05, one_sided = 2.0;
 /// Most of the length that is too much: a share, and a length [em].
 constexpr double most_share = 0.3, most_length = 0.12;
 
-/// To and fro, relative to the stroke.
-constexpr double roughest = 1.35;
+/// To and fro, relative to the stroke; more in a wider corridor [1/em].
+constexpr double usual_roughest = 1.35, by_corridor = 10.0;
 /// A stroke bends if it bulges by so much [em], and by this share of its length in addition; what is written for it then
 /// bulges by this share of that.
 constexpr double bent = 0.045, bent_share = 0.035, flattest = 0.25;
@@ -37,7 +37,8 @@ double scaled(double misfit, const StrokeTolerances& tolerances) {
   return misfit * tolerances.corridor / usual_corridor;
 }
 
-bool is_another_shape(const ShapeMatch& match, const StrokeShape& stroke) {
+bool is_another_shape(const ShapeMatch& match, const StrokeShape& stroke, const StrokeTolerances& tolerances) {
+  const double roughest = usual_roughest + by_corridor * std::max(0.0, tolerances.corridor - usual_corridor);
   const bool bends = stroke.bulge > bent + bent_share * stroke.length;
   return match.roughness > roughest || (bends && match.bulge < flattest * stroke.bulge);
 }
@@ -53,13 +54,13 @@ double least_share_of_way(double length, const StrokeTolerances& tolerances) noe
 bool is_vetoed(const ShapeMatch& match, const StrokeShape& stroke, const StrokeTolerances& tolerances) noexcept {
   // People make a dot three times as long, and the map hardly changes the size of one.
   const double larger = std::max(1.0, match.ahead);
-  return is_another_shape(match, stroke) || match.own_end > farthest_end + end_share_of_length * stroke.length ||
+  return is_another_shape(match, stroke, tolerances) || match.own_end > farthest_end + end_share_of_length * stroke.length ||
          std::min(match.misfit, match.later_misfit) > larger * scaled(overruled_misfit, tolerances);
 }
 
 StrokeVerdict verdict_on(const ShapeMatch& match, const StrokeShape& stroke, double hidden,
                          const StrokeTolerances& tolerances) noexcept {
-  if (is_another_shape(match, stroke)) return StrokeVerdict::refused;
+  if (is_another_shape(match, stroke, tolerances)) return StrokeVerdict::refused;
   const double length = stroke.length, misfit = scaled(most_misfit, tolerances);
   const double from_end = std::max(end_distance, end_of_dot + end_share_of_length * length) + hidden;
   const bool fits = match.misfit <= misfit && match.turn <= turn + short_turn / length && match.narrowest > narrowest;

@@ -3,7 +3,7 @@
 namespace calligraphy {
 
 void WrittenPath::begin(const Point& tip, double em, double hidden) noexcept {
-  points_[0] = points_[1] = hand_ = chord_from_ = step_from_ = tip;
+  points_[0] = points_[1] = chord_from_ = step_from_ = tip;
   count_ = 1;
   arcs_[0] = 0.0;
   apart_ = spacing * em;
@@ -13,8 +13,8 @@ void WrittenPath::begin(const Point& tip, double em, double hidden) noexcept {
 }
 
 void WrittenPath::add_chord() noexcept {
-  chords_ += (hand_ - chord_from_).norm();
-  chord_from_ = hand_;
+  chords_ += (points_[count_] - chord_from_).norm();
+  chord_from_ = points_[count_];
 }
 
 /// Keeps the last point.

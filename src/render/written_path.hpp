@@ -14,18 +14,17 @@ namespace calligraphy {
 class WrittenPath {
  public:
   static constexpr double spacing = 0.01;  ///< of the first points [em]
-  static constexpr double chord = 0.03;    ///< of the hand's way, which a fine tremor does not lengthen [em]
+  static constexpr double chord = 0.03;    ///< of the way that a fine tremor does not lengthen [em]
   static constexpr std::size_t capacity = 64;
 
   /// The pen sets out at `tip` [m, page], in a square of `em` [m]. Smaller motions than `hidden` [m] need not be the
   /// hand's.
   void begin(const Point& tip, double em, double hidden) noexcept;
 
-  /// The pen is at `tip`, and the hand means to be at `hand` [m, page].
-  void update(const Point& tip, const Point& hand) noexcept {
+  /// The pen is at `tip` [m, page].
+  void update(const Point& tip) noexcept {
     points_[count_] = tip;
-    hand_ = hand;
-    if ((hand - chord_from_).squaredNorm() >= chord_ * chord_) add_chord();
+    if ((tip - chord_from_).squaredNorm() >= chord_ * chord_) add_chord();
     if ((tip - points_[count_ - 1]).squaredNorm() >= apart_ * apart_) keep();
   }
 
@@ -35,8 +34,8 @@ class WrittenPath {
   std::span<const double> arcs() const noexcept { return {arcs_.data(), count_}; }
   /// Length of the pen's way, in steps of `spacing`, or of what may be hidden if that is longer; without the first [m].
   double way() const noexcept { return std::max(0.0, way_ - step_); }
-  /// Length of the hand's way in chords [m].
-  double chords() const noexcept { return chords_ + (hand_ - chord_from_).norm(); }
+  /// The same in chords, to the last point [m].
+  double chords() const noexcept { return chords_ + (points_[count_] - chord_from_).norm(); }
 
  private:
   [[gnu::noinline]] void add_chord() noexcept;
@@ -45,7 +44,7 @@ class WrittenPath {
   std::array<Point, capacity + 1> points_;  ///< kept ones, and the last one
   std::array<double, capacity> arcs_;       ///< of the kept ones
   std::size_t count_ = 1;                   ///< of these
-  Point hand_ = Point::Zero(), chord_from_ = Point::Zero(), step_from_ = Point::Zero();
+  Point chord_from_ = Point::Zero(), step_from_ = Point::Zero();
   double apart_ = 0.0, chord_ = 0.0, step_ = 0.0;
   double way_ = 0.0, chords_ = 0.0;
 };

@@ -35,7 +35,7 @@ StrokeShape line(double length) { return shape_through(1, {{0.1, 0.5}, {0.1 + le
 ShapeMatch fit(const StrokeShape& shape, const std::vector<Point>& path) {
   WrittenPath written;
   written.begin(path.front(), em, 0.0);
-  for (const Point& tip : path) written.update(tip, tip);
+  for (const Point& tip : path) written.update(tip);
   ShapeFit fit;
   fit.begin(written, shape, Point::Zero());
   int steps = 0;
@@ -132,8 +132,7 @@ TEST_CASE("a path of any length is fitted, in few steps, and nothing is allocate
     written.begin(shape.origin, em, 0.0);
     for (int i = 0; i <= 3000; ++i) {
       const double turn = 0.01 * i;
-      const Point tip = shape.origin + em * length * i / 3000 * Point(std::cos(turn), std::sin(turn));
-      written.update(tip, tip);
+      written.update(shape.origin + em * length * i / 3000 * Point(std::cos(turn), std::sin(turn)));
     }
     fit.begin(written, shape, Point::Zero());
     int steps = 1;

@@ -300,6 +300,60 @@ TEST_CASE("a pen that is put down again at once finds the stroke before decided"
   CHECK(sequencer.update(pen_at(next.front(), true)).events == (TickEvent::stroke_abandoned | TickEvent::contact));
 }
 
+TEST_CASE("where the hand means to be does not lengthen what was written", "[render]") {
+  const StrokeInput line{1, {{0.2, 0.5}, {0.34, 0.5}}, {}};
+  for (const StrokeTolerances& tolerances : {StrokeTolerances::normal(), StrokeTolerances::strict()}) {
+    for (const double ahead : {0.0, 0.0012}) {  // [m]
+      RendererOptions options;
+      options.tolerances = tolerances;
+      StrokeSequencer sequencer({{make_character(U'\u4E36', std::span(&line, 1)), {{0.0, 0.0}, 0.04}}}, options,
+                                test_device(), {}, true);
+      std::vector<Point> way = way_along(sequencer, 0);
+      way.resize(way.size() * 11 / 20);
+      for (const Point& tip : way) {
+        PenState pen = pen_at(tip, true);
+        pen.force = {-ahead * options.grip_stiffness, 0.0, 0.0};
+        sequencer.update(pen);
+      }
+      CAPTURE(tolerances.coverage, ahead);
+      CHECK_FALSE(is_finished_in_air(sequencer, way.back()));
+    }
+  }
+}
+
+TEST_CASE("a pen that left the box is not guided before it is decided what it wrote", "[render]") {
+  StrokeSequencer sequencer = sequencer_of(U'\u4E09');
+  std::vector<Point> way = way_along(sequencer, 0);
+  way.resize(way.size() / 2);
+  sequencer.update(pen_at(way.front(), false));
+  for (const Point& tip : way) sequencer.update(pen_at(tip, true));
+  sequencer.update(pen_at(way.back() + Point(0.0, 0.1), true));
+  TickEvent events = TickEvent::none;
+  for (int i = 0; i < 25 && events == TickEvent::none; ++i) {
+    const WriterState& writer = sequencer.update(pen_at(way.back(), true));
+    events = writer.events;
+    if (events != TickEvent::none) continue;
+    CHECK(writer.phase == Phase::away);
+    CHECK_FALSE(writer.guided);
+  }
+  CHECK(events == TickEvent::stroke_abandoned);
+}
+
+TEST_CASE("the start of the next character decides, however much the boxes overlap", "[render]") {
+  StrokeSequencer sequencer({{*built_in_characters().find(U'\u4E00'), {{0.02, 0.02}, 0.04}},
+                             {*built_in_characters().find(U'\u4E00'), {{0.03, 0.02}, 0.04}}},
+                            {}, test_device(), {}, true);
+  std::vector<Point> way = way_along(sequencer, 0);
+  const Point again = way.front(), next = again + Point(0.01, 0.0);
+  way.resize(way.size() * 3 / 4);
+  sequencer.update(pen_at(way.front(), false));
+  for (const Point& tip : way) sequencer.update(pen_at(tip, true));
+  CHECK_FALSE(is_finished_in_air(sequencer, way.back()));
+  CHECK(sequencer.update(pen_at(again, true)).character == 0);
+  sequencer.update(pen_at(again, false));
+  CHECK(sequencer.update(pen_at(next, true)).character == 1);
+}
+
 TEST_CASE("a bad sample changes nothing that is known of the writer, and happens nowhere", "[render]") {
   StrokeSequencer sequencer = sequencer_of(U'一');
   const std::vector<Point> way = way_along(sequencer, 0);

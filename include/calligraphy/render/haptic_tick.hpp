@@ -17,11 +17,12 @@ enum class TickEvent : std::uint16_t {
   lift = 1 << 1,                ///< the pen left the paper
   stroke_started = 1 << 2,      ///< the first stretch of the active stroke was written: guidance begins
   feature_passed = 1 << 3,      ///< a feature point of the active stroke was passed
-  /// A stroke was written; `stroke` of this tick is already the next. At its end, within 50 ms of the lift, or together
-  /// with the next stroke_started; on its own after 1 s in the air if none comes, at the end of a page.
+  /// A stroke was written; `stroke` of this tick is already the next. At its end; within 50 ms of where the pen left the
+  /// paper; if it was in doubt, together with the next stroke_started, with the contact at the next character, or after
+  /// 1 s in the air at the end of a page.
   stroke_finished = 1 << 4,
-  /// A stroke was left before its end, and its trace is to be cleared: where the pen leaves it, within 50 ms of that, or
-  /// together with the next stroke_started, which writes it anew.
+  /// A stroke was left before its end, and its trace is to be cleared: within 50 ms of where the pen left it, or, if it
+  /// was in doubt, together with the next stroke_started, which writes it anew.
   stroke_abandoned = 1 << 5,
   character_finished = 1 << 6,  ///< the last stroke of a character was finished
   page_finished = 1 << 7        ///< the last character of the page was finished
