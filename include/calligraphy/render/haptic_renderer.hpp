@@ -41,12 +41,12 @@ class HapticRenderer {
   void restart() noexcept;
 
   /// Skips the stroke that is due as though it had been written, but without an event: neither a recording nor a score
-  /// counts it as written, even if what was just written for it is not decided yet or in doubt. After the last stroke of
-  /// a character the next character is due, and after that of the last character the page counts as written. A pen on the
-  /// paper must be lifted first, as after a stroke that was written.
-  /// last() shows the skip from the next update() on. Call this in the thread that calls update(), between two calls;
-  /// it never allocates. Returns false, and does nothing, while the pen writes the stroke (InteractionState::writing)
-  /// and when none is due: the page is written, or the pen has not left the last stroke of the character yet.
+  /// counts it as written, even if what was just written for it is not decided yet or in doubt. After the last stroke
+  /// of a character the next character is due, and after that of the last character the page counts as written. A pen
+  /// on the paper must be lifted first, as after a stroke that was written. last() shows the skip from the next
+  /// update() on. Call this in the thread that calls update(), between two calls; it never allocates. Returns false, and
+  /// does nothing, while the pen writes the stroke (InteractionState::writing) and when none is due: the page is
+  /// written, or the pen has not left the last stroke of the character yet.
   bool skip_stroke() noexcept;
 
   /// Traits of the guidance law; the name also states any scaling down, and the energy budget that it was given.

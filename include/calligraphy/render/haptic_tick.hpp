@@ -17,9 +17,9 @@ enum class TickEvent : std::uint16_t {
   lift = 1 << 1,                ///< the pen left the paper
   stroke_started = 1 << 2,      ///< the first stretch of the active stroke was written: guidance begins
   feature_passed = 1 << 3,      ///< a feature point of the active stroke was passed
-  /// A stroke was written; `stroke` of this tick is already the next. At its end; within 50 ms of where the pen left the
-  /// paper; if it was in doubt, together with the next stroke_started, with the contact at the next character, or after
-  /// 1 s in the air at the end of a page.
+  /// A stroke was written; `stroke` of this tick is already the next. At its end; within 50 ms of where the pen left
+  /// the paper; or, if it was in doubt, together with the next stroke_started, with the contact at the next character,
+  /// or after 1 s in the air at the end of a page.
   stroke_finished = 1 << 4,
   /// A stroke was left before its end, and its trace is to be cleared: within 50 ms of where the pen left it, or, if it
   /// was in doubt, together with the next stroke_started, which writes it anew.
