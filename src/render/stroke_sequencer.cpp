@@ -25,7 +25,13 @@ constexpr double min_held_weight = 0.5;
 constexpr double max_detour = 2.0;
 
 /// A shorter stroke is a dot [em], and how long after its end it is looked at [s].
-constexpr double longest_dot = 0.15, dot_time = 0.25;
+constexpr double longest_dot = 0.15, dot_time = 0.1;
+
+/// Smaller motions may be a device's steps and noise [m, device].
+constexpr double sensor_noise = 2e-4;
+
+/// The next stroke is meant instead of the due one anew where the pen fits it better by this factor.
+constexpr double surely_next = 1.5;
 
 /// The last stroke of a page, if it is in doubt, was written once the pen has been in the air for this time [s].
 constexpr double max_doubt = 1.0;
@@ -51,6 +57,7 @@ StrokeSequencer::StrokeSequencer(std::vector<PlacedCharacter> page, const Render
       fit_steps_(std::max(1, static_cast<int>(std::ceil(1000.0 / options.servo_rate)))) {
   const double dry_friction = capabilities.coulomb_friction + options.paper.friction.coefficient * usual_pressure;
   hidden_way_ = mapping.scale * dry_friction / options.grip_stiffness;
+  hidden_motion_ = std::max(2.0 * hidden_way_, sensor_noise * mapping.scale);
   restart();
 }
 
@@ -84,7 +91,10 @@ const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
   using State = InteractionState;
   const Point tip = pen.tip.head<2>();
   writer_.events = TickEvent::none;
-  if (pen.status != TickStatus::ok) return writer_;
+  if (pen.status != TickStatus::ok) {
+    if (look_ != Look::none) step_fit();  // samples may come less often than ticks
+    return writer_;
+  }
   if (look_ == Look::decides) decide(pen);
   if (in_doubt_) settle_doubt(pen);
   const TransitionInput input = advance(pen);
@@ -180,7 +190,8 @@ CaptureVerdict StrokeSequencer::try_to_begin(Attempt& attempt, int stroke, const
   const auto misfit_to = [&](int stroke) {
     return next_.capture.misfit_to(start(stroke), tip, writer_.em, tolerances_);
   };
-  const bool is_next = misfit_to(next) < misfit_to(writer_.stroke);
+  const double of_rest = next_.capture.misfit_to(rest_, tip, writer_.em, tolerances_);
+  const bool is_next = surely_next * misfit_to(next) < std::min(misfit_to(writer_.stroke), of_rest);
   const CaptureVerdict verdict = try_to_begin(next_, next, pen);
   if (!is_next) return false;
   if (verdict == CaptureVerdict::begun) confirm_stroke();
@@ -189,7 +200,7 @@ CaptureVerdict StrokeSequencer::try_to_begin(Attempt& attempt, int stroke, const
 
 void StrokeSequencer::begin_following(Attempt& attempt, int stroke) noexcept {
   this->stroke(stroke).follower.begin(attempt.capture.begin(), attempt.capture.misplaced());
-  attempt.path.begin(attempt.capture.begin(), writer_.em, 2.0 * hidden_way_);
+  attempt.path.begin(attempt.capture.begin(), writer_.em, hidden_motion_);
 }
 
 void StrokeSequencer::follow(Attempt& attempt, int stroke, const PenState& pen) noexcept {
@@ -252,7 +263,7 @@ void StrokeSequencer::step_fit() noexcept {
   due_->geometry.begin(attempt_.capture.begin());
   if (!start(writer_.stroke).bends) {
     begin_following(attempt_, writer_.stroke);
-    attempt_.path.begin(attempt_.capture.own_begin(), writer_.em, 2.0 * hidden_way_);
+    attempt_.path.begin(attempt_.capture.own_begin(), writer_.em, hidden_motion_);
   }
   write_on(pen);
 }
@@ -290,6 +301,7 @@ void StrokeSequencer::step_fit() noexcept {
     in_doubt_ = true;
     lifted_at_ = pen.time;
     doubted_down_ = attempt_.capture.down();
+    rest_ = {attempt_.path.points().back(), due_->geometry.at(due_->geometry.length()).tangent, 0.0, false};
     due_->geometry.reload();
     if (writer_.state != InteractionState::separation) set_out(tip);
   } else {

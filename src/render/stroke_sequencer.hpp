@@ -95,6 +95,7 @@ class StrokeSequencer {
   bool leads_to_start_;        ///< guidance leads to the start
   bool lets_go_;               ///< guidance lets go of a pen that is astray
   MotionMapping mapping_;
+  double hidden_motion_;  ///< smaller ones need not be the hand's [m, page]
   double hidden_way_;  ///< how far dry friction keeps the pen short of where a usual hand means to be [m, page]
   double compliance_;  ///< of a usual grip [m/N, page]
   PreparedCharacter* character_ = nullptr;  ///< the one of `page_` to be written; null once all are
@@ -110,6 +111,7 @@ class StrokeSequencer {
   bool in_doubt_ = false;                   ///< perhaps the due stroke was written
   double lifted_at_ = 0.0;                  ///< since when [s]
   Point doubted_down_ = Point::Zero();      ///< where the pen was put down for it [m, page]
+  StrokeStart rest_;                        ///< of it, where the pen left it
   bool inside_box_ = false;
   WriterState writer_;
 };

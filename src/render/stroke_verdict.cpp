@@ -18,8 +18,9 @@ constexpr double nearly = 0.05, one_sided = 2.0;
 /// Most of the length that is too much: a share, and a length [em].
 constexpr double most_share = 0.3, most_length = 0.12;
 
-/// To and fro, relative to the stroke; more in a wider corridor [1/em].
-constexpr double usual_roughest = 1.35, by_corridor = 10.0;
+/// To and fro, relative to the stroke: of a short one [em], and more of a longer one, up to a length [em], and in a wider
+/// corridor [1/em].
+constexpr double usual_roughest = 1.35, short_stroke = 0.15, long_stroke = 0.4, by_length = 3.4, by_corridor = 10.0;
 /// A stroke bends if it bulges by so much [em], and by this share of its length in addition; what is written for it then
 /// bulges by this share of that.
 constexpr double bent = 0.045, bent_share = 0.035, flattest = 0.25;
@@ -38,7 +39,9 @@ double scaled(double misfit, const StrokeTolerances& tolerances) {
 }
 
 bool is_another_shape(const ShapeMatch& match, const StrokeShape& stroke, const StrokeTolerances& tolerances) {
-  const double roughest = usual_roughest + by_corridor * std::max(0.0, tolerances.corridor - usual_corridor);
+  const double longer = std::clamp(stroke.length - short_stroke, 0.0, long_stroke - short_stroke);
+  const double wider = std::max(0.0, tolerances.corridor - usual_corridor);
+  const double roughest = usual_roughest + by_length * longer + by_corridor * wider;
   const bool bends = stroke.bulge > bent + bent_share * stroke.length;
   return match.roughness > roughest || (bends && match.bulge < flattest * stroke.bulge);
 }

@@ -289,6 +289,28 @@ TEST_CASE("a stroke in doubt is decided by what is begun next", "[render]") {
   CHECK(skipped.write(0, 1) == "sfc");
 }
 
+TEST_CASE("what was written is decided within 50 ms at any rate, of the loop and of the samples", "[render]") {
+  for (const double rate : {200.0, 1000.0, 4000.0}) {
+    for (const int every : {1, 4, 8}) {  // of so many ticks one has a fresh sample
+      RendererOptions options;
+      options.servo_rate = rate;
+      StrokeSequencer sequencer = sequencer_of(U'\u4E09', options);
+      std::vector<Point> way = way_along(sequencer, 0);
+      way.resize(way.size() / 2);
+      sequencer.update(pen_at(way.front(), false));
+      for (const Point& tip : way) sequencer.update(pen_at(tip, true));
+      int ticks = 0;
+      for (bool decided = false; !decided && ticks < 1000; ++ticks) {
+        PenState pen = pen_at(way.back(), false);
+        if (ticks % every != 0) pen.status = TickStatus::stale;
+        decided = has_event(sequencer.update(pen).events, TickEvent::stroke_abandoned);
+      }
+      CAPTURE(rate, every);
+      CHECK(ticks / rate <= (every == 8 && rate < 1000.0 ? 0.1 : 0.05));
+    }
+  }
+}
+
 TEST_CASE("a pen that is put down again at once finds the stroke before decided", "[render]") {
   StrokeSequencer sequencer = sequencer_of(U'\u4E09');
   std::vector<Point> way = way_along(sequencer, 0);
