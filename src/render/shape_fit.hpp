@@ -12,7 +12,7 @@ namespace calligraphy {
 /// What a fit tells. Distances are in em, the mean offset of the character taken off.
 struct ShapeMatch {
   double misfit = 0.0;     ///< mean distance (RMS) that the map from the stroke to the pen leaves
-  double later_misfit = 0.0;  ///< the same after the first quarter of the pen's path, on which guidance may pull it aside
+  double later_misfit = 0.0;  ///< the same without the first quarter of the pen's path: guidance may pull it aside
   double turn = 0.0;       ///< sine of the angle by which the pen's path is turned; 2 beyond a right angle
   double narrowest = 1.0;  ///< least singular value of the map [1]
   double moved = 0.0;      ///< distance of the middles
@@ -21,7 +21,7 @@ struct ShapeMatch {
   double late = 0.0;       ///< how far after the start it was begun, along the stroke
   double early = 0.0;      ///< how far before the end it was ended, likewise
   double extent = 1.0;     ///< length of the hand's way, as a share of an exact one's [1]
-  double ahead = 1.0;      ///< of the stroke's way between its ends: the share that the pen's ends are apart, along it [1]
+  double ahead = 1.0;      ///< how far apart the pen's ends are, along the line between the stroke's, as a share of that [1]
   double roughness = 1.0;  ///< relative to the stroke's [1]
   double bulge = 0.0;      ///< ShapeNodes::bulge() of the pen's path
 };

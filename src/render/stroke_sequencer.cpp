@@ -418,7 +418,8 @@ WritingPhase StrokeSequencer::phase_before_stroke(const Point& tip) const noexce
   const CaptureVerdict verdict = attempt_.capture.verdict();
   if (verdict == CaptureVerdict::another_stroke) return WritingPhase::other_stroke;
   // The first stretch leads away from the start.
-  const double from_start = std::min(writer_.to_start.norm(), (attempt_.capture.begin() - due_->geometry.start()).norm());
+  const Point begun = attempt_.capture.begin() - due_->geometry.start();
+  const double from_start = std::min(writer_.to_start.norm(), begun.norm());
   const bool is_late = writer_.rests && writer_.contact.arc > end_share * due_->geometry.length();
   if (is_late && (tip - due_->geometry.end()).norm() < from_start) return WritingPhase::at_end;
   if (from_start <= near) return phase_at_start(verdict);

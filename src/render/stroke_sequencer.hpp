@@ -95,9 +95,9 @@ class StrokeSequencer {
   bool leads_to_start_;        ///< guidance leads to the start
   bool lets_go_;               ///< guidance lets go of a pen that is astray
   MotionMapping mapping_;
+  double hidden_way_;     ///< how far dry friction keeps the pen short of where a usual hand means to be [m, page]
   double hidden_motion_;  ///< smaller ones need not be the hand's [m, page]
-  double hidden_way_;  ///< how far dry friction keeps the pen short of where a usual hand means to be [m, page]
-  double compliance_;  ///< of a usual grip [m/N, page]
+  double compliance_;     ///< of a usual grip [m/N, page]
   PreparedCharacter* character_ = nullptr;  ///< the one of `page_` to be written; null once all are
   PreparedStroke* due_ = nullptr;           ///< its stroke that is due; the last once all are written
   Point hand_ = Point::Zero();              ///< where the hand means to be, in the writing state [m, page]

@@ -18,11 +18,11 @@ constexpr double nearly = 0.05, one_sided = 2.0;
 /// Most of the length that is too much: a share, and a length [em].
 constexpr double most_share = 0.3, most_length = 0.12;
 
-/// To and fro, relative to the stroke: of a short one [em], and more of a longer one, up to a length [em], and in a wider
-/// corridor [1/em].
+/// To and fro, relative to the stroke: of a short one [em], and more of a longer one, up to a length [em], and in a
+/// wider corridor [1/em].
 constexpr double usual_roughest = 1.35, short_stroke = 0.15, long_stroke = 0.4, by_length = 3.4, by_corridor = 10.0;
-/// A stroke bends if it bulges by so much [em], and by this share of its length in addition; what is written for it then
-/// bulges by this share of that.
+/// A stroke bends if it bulges by so much [em], and by this share of its length in addition; what is written for it
+/// then bulges by this share of that.
 constexpr double bent = 0.045, bent_share = 0.035, flattest = 0.25;
 
 /// Distances that the map may leave in the usual corridor, and those at which the follower is overruled [em].
@@ -56,9 +56,9 @@ double least_share_of_way(double length, const StrokeTolerances& tolerances) noe
 
 bool is_vetoed(const ShapeMatch& match, const StrokeShape& stroke, const StrokeTolerances& tolerances) noexcept {
   // People make a dot three times as long, and the map hardly changes the size of one.
-  const double larger = std::max(1.0, match.ahead);
-  return is_another_shape(match, stroke, tolerances) || match.own_end > farthest_end + end_share_of_length * stroke.length ||
-         std::min(match.misfit, match.later_misfit) > larger * scaled(overruled_misfit, tolerances);
+  const double misfit = std::max(1.0, match.ahead) * scaled(overruled_misfit, tolerances);
+  return is_another_shape(match, stroke, tolerances) || std::min(match.misfit, match.later_misfit) > misfit ||
+         match.own_end > farthest_end + end_share_of_length * stroke.length;
 }
 
 StrokeVerdict verdict_on(const ShapeMatch& match, const StrokeShape& stroke, double hidden,

@@ -7,8 +7,8 @@
 
 namespace calligraphy {
 
-/// Refines the paper's states: `lifted` and `in_doubt` are SS, `guided` and `released` are WS, `page_written` is AS, and
-/// the others are CS in the character's box and AS outside it.
+/// Refines the paper's states: `lifted` and `in_doubt` are SS, `guided` and `released` are WS, `page_written` is AS,
+/// and the others are CS in the character's box and AS outside it.
 enum class WritingPhase : std::uint8_t {
   lifted,        ///< not on the paper
   in_doubt,      ///< likewise, and perhaps the stroke that is due was written: what is begun next decides

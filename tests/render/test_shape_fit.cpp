@@ -58,7 +58,7 @@ StrokeVerdict verdict_on_share(double length, double from, double to, const Stro
 
 }  // namespace
 
-TEST_CASE("a corner in another size, slant and place is that corner, up to what a short stroke is believed", "[render]") {
+TEST_CASE("a corner in another size, slant and place is that corner", "[render]") {
   const StrokeShape shape = corner();
   const ShapeMatch same = fit(shape, way(shape, {{0, 0}, {0.5, 0}, {0.5, -0.5}}));
   CHECK(same.misfit == Approx(0.0).margin(2e-3));

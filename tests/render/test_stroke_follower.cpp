@@ -108,7 +108,7 @@ TEST_CASE("a typical stroke that is traced is covered entirely and accepted, at 
   }
 }
 
-TEST_CASE("a part is accepted from max(0.42, coverage - slack / length) on, and of the least way, less what friction hides",
+TEST_CASE("a part is accepted from max(0.42, coverage - slack / length) and the least way on, less what friction hides",
           "[render]") {
   constexpr double resolution = 0.02;  // of the em: the points of the stroke and the steps of the pen are 0.01 apart
   for (const StrokeTolerances& tolerances :

@@ -125,7 +125,8 @@ TEST_CASE("the state of the writer moves along the arrows that are drawn, and re
           const Phase phase = writer.phase;
           if (before != phase) seen.emplace(before, phase);
           wrong += !is_drawn(before, phase, options);
-          const bool is_lifted = phase == Phase::lifted || phase == Phase::in_doubt, writes = phase == Phase::guided || phase == Phase::released;
+          const bool is_lifted = phase == Phase::lifted || phase == Phase::in_doubt;
+          const bool writes = phase == Phase::guided || phase == Phase::released;
           unlike_paper += is_lifted != (writer.state == InteractionState::separation);
           unlike_paper += writes != (writer.state == InteractionState::writing);
           const bool ends = has_event(writer.events, TickEvent::page_finished);
@@ -258,7 +259,9 @@ TEST_CASE("a stroke in doubt is decided by what is begun next", "[render]") {
         const std::pair<TickEvent, char> names[] = {
             {TickEvent::stroke_finished, 'f'}, {TickEvent::stroke_abandoned, 'a'},
             {TickEvent::character_finished, 'c'}, {TickEvent::page_finished, 'p'}, {TickEvent::stroke_started, 's'}};
-        for (const auto& [event, letter] : names) events += has_event(writer.events, event) ? std::string(1, letter) : "";
+        for (const auto& [event, letter] : names) {
+          if (has_event(writer.events, event)) events += letter;
+        }
       };
       see(at(way.front(), false));
       for (const Point& tip : way) see(at(tip, true));
