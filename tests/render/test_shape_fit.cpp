@@ -32,9 +32,9 @@ StrokeShape shape_through(int type, const std::vector<Point>& points) {
 StrokeShape corner() { return shape_through(16, {{0.2, 0.8}, {0.7, 0.8}, {0.7, 0.3}}); }
 StrokeShape line(double length) { return shape_through(1, {{0.1, 0.5}, {0.1 + length, 0.5}}); }
 
-ShapeMatch fit(const StrokeShape& shape, const std::vector<Point>& path) {
+ShapeMatch fit(const StrokeShape& shape, const std::vector<Point>& path, double hidden = 0.0) {
   WrittenPath written;
-  written.begin(path.front(), em, 0.0);
+  written.begin(path.front(), em, hidden);
   for (const Point& tip : path) written.update(tip);
   ShapeFit fit;
   fit.begin(written, shape, Point::Zero());
@@ -96,6 +96,26 @@ TEST_CASE("a tremor, loops, waves and a chord are other shapes, however near to 
   const ShapeMatch chord = fit(bent, way(bent, {{0, 0}, {0.5, -0.5}}));
   CHECK(is_vetoed(chord, bent, normal));
   CHECK(verdict_on(chord, bent, 0.0, normal) == StrokeVerdict::refused);
+}
+
+TEST_CASE("a pen that guidance pulls to the stroke writes no wave, and one that sticks and slips does not tremble",
+          "[render]") {
+  const StrokeShape shape = line(0.4), dot = line(0.1);
+  const ShapeMatch pulled = fit(shape, way(shape, {{0.0, 0.16}, {0.09, 0.0}, {0.4, 0.0}}));
+  CHECK(pulled.misfit > 0.029);
+  CHECK_FALSE(is_vetoed(pulled, shape, normal));
+  std::vector<Point> jerks;
+  for (int i = 0; i <= 20; ++i) jerks.emplace_back(0.005 * i, i % 2 == 0 ? 0.006 : -0.006);
+  CHECK(is_vetoed(fit(dot, way(dot, jerks)), dot, normal));
+  CHECK_FALSE(is_vetoed(fit(dot, way(dot, jerks), 0.03 * em), dot, normal));
+}
+
+TEST_CASE("a long line through a dot is not the dot", "[render]") {
+  const StrokeShape dot = line(0.1);
+  const auto is_dot = [&](double to) { return !is_vetoed(fit(dot, way(dot, {{0.0, 0.0}, {to, 0.0}})), dot, normal); };
+  CHECK(is_dot(0.1));
+  CHECK(is_dot(0.3));
+  CHECK_FALSE(is_dot(0.4));
 }
 
 TEST_CASE("short at both ends it is finished from the least share on, at one end in doubt, and refused below",

@@ -325,6 +325,22 @@ TEST_CASE("a pen that is put down again at once finds the stroke before decided"
   CHECK(sequencer.update(pen_at(next.front(), true)).events == (TickEvent::stroke_abandoned | TickEvent::contact));
 }
 
+TEST_CASE("one who goes on where the stroke in doubt was left does not begin the next", "[render]") {
+  const std::vector<StrokeInput> inputs = {{1, {{0.1, 0.5}, {0.4, 0.5}}}, {1, {{0.5, 0.5}, {0.9, 0.5}}}};
+  for (const double from : {0.31, 0.5}) {
+    StrokeSequencer sequencer({{make_character(U'\u4E8C', inputs), {{0.0, 0.0}, 0.04}}}, {}, test_device(), {}, true);
+    const auto draw = [&](double begin, double end) {
+      sequencer.update(pen_at(0.04 * Point(begin, 0.5), false));
+      for (int i = 0; i <= 100; ++i) sequencer.update(pen_at(0.04 * Point(begin + (end - begin) * i / 100, 0.5), true));
+      is_finished_in_air(sequencer, 0.04 * Point(end, 0.5));
+    };
+    draw(0.1, 0.31);
+    draw(from, from + 0.09);
+    CAPTURE(from);
+    CHECK(sequencer.update(pen_at({0.0, 0.0}, false)).stroke == (from > 0.4 ? 1 : 0));
+  }
+}
+
 TEST_CASE("where the hand means to be does not lengthen what was written", "[render]") {
   const StrokeInput line{1, {{0.2, 0.5}, {0.34, 0.5}}, {}};
   for (const StrokeTolerances& tolerances : {StrokeTolerances::normal(), StrokeTolerances::strict()}) {
@@ -366,10 +382,10 @@ TEST_CASE("a pen that left the box is not guided before it is decided what it wr
 
 TEST_CASE("the start of the next character decides, however much the boxes overlap", "[render]") {
   StrokeSequencer sequencer({{*built_in_characters().find(U'\u4E00'), {{0.02, 0.02}, 0.04}},
-                             {*built_in_characters().find(U'\u4E00'), {{0.03, 0.02}, 0.04}}},
+                             {*built_in_characters().find(U'\u4E00'), {{0.025, 0.02}, 0.04}}},
                             {}, test_device(), {}, true);
   std::vector<Point> way = way_along(sequencer, 0);
-  const Point again = way.front(), next = again + Point(0.01, 0.0);
+  const Point again = way.front(), next = again + Point(0.005, 0.0);
   way.resize(way.size() * 3 / 4);
   sequencer.update(pen_at(way.front(), false));
   for (const Point& tip : way) sequencer.update(pen_at(tip, true));
