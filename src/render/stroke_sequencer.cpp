@@ -36,6 +36,11 @@ constexpr double surely_next = 1.5;
 /// The last stroke of a page, if it is in doubt, was written once the pen has been in the air for this time [s].
 constexpr double max_doubt = 1.0;
 
+/// One in each millisecond; at a rate of 0, that of the device, which is not known yet, one a tick.
+int fit_steps(double servo_rate) {
+  return servo_rate > 0.0 ? static_cast<int>(std::ceil(std::min(1000.0 / servo_rate, 1000.0))) : 1;
+}
+
 bool is_within(const Eigen::AlignedBox2d& box, const Point& point) {
   return box.min().x() <= point.x() && point.x() <= box.max().x() && box.min().y() <= point.y() &&
          point.y() <= box.max().y();
@@ -54,7 +59,7 @@ StrokeSequencer::StrokeSequencer(std::vector<PlacedCharacter> page, const Render
       lets_go_(lets_go),
       mapping_(mapping),
       compliance_(mapping.scale * mapping.scale / options.grip_stiffness),
-      fit_steps_(std::max(1, static_cast<int>(std::ceil(1000.0 / options.servo_rate)))) {
+      fit_steps_(fit_steps(options.servo_rate)) {
   const double dry_friction = capabilities.coulomb_friction + options.paper.friction.coefficient * usual_pressure;
   hidden_way_ = mapping.scale * dry_friction / options.grip_stiffness;
   hidden_motion_ = std::max(2.0 * hidden_way_, sensor_noise * mapping.scale);
