@@ -11,19 +11,19 @@ namespace calligraphy {
 
 /// What a fit tells. Distances are in em, the mean offset of the character taken off.
 struct ShapeMatch {
-  double misfit = 0.0;     ///< mean distance (RMS) that the map from the stroke to the pen leaves
+  double misfit = 0.0;        ///< mean distance (RMS) that the map from the stroke to the pen leaves
   double later_misfit = 0.0;  ///< the same without the first quarter of the pen's path: guidance may pull it aside
-  double turn = 0.0;       ///< sine of the angle by which the pen's path is turned; 2 beyond a right angle
-  double narrowest = 1.0;  ///< least singular value of the map [1]
-  double moved = 0.0;      ///< distance of the middles
-  double end = 0.0;        ///< distance of the ends
-  double own_end = 0.0;    ///< the same with the starts on each other
-  double late = 0.0;       ///< how far after the start it was begun, along the stroke
-  double early = 0.0;      ///< how far before the end it was ended, likewise
-  double extent = 1.0;     ///< length of the hand's way, as a share of an exact one's [1]
-  double ahead = 1.0;      ///< how far apart the pen's ends are, along the line between the stroke's, as a share of that [1]
-  double roughness = 1.0;  ///< relative to the stroke's [1]
-  double bulge = 0.0;      ///< ShapeNodes::bulge() of the pen's path
+  double turn = 0.0;          ///< sine of the angle by which the pen's path is turned; 2 beyond a right angle
+  double narrowest = 1.0;     ///< least singular value of the map [1]
+  double moved = 0.0;         ///< distance of the middles
+  double end = 0.0;           ///< distance of the ends
+  double own_end = 0.0;       ///< the same with the starts on each other
+  double late = 0.0;          ///< how far after the start it was begun, along the stroke
+  double early = 0.0;         ///< how far before the end it was ended, likewise
+  double extent = 1.0;        ///< length of the pen's way, as a share of an exact one's [1]
+  double ahead = 1.0;         ///< how far apart the pen's ends are along the stroke's, as a share of these [1]
+  double roughness = 1.0;     ///< relative to the stroke's [1]
+  double bulge = 0.0;         ///< ShapeNodes::bulge() of the pen's path
 };
 
 /// Three rounds of an affine map, by least squares, and of pairing the nodes of both in order, by dynamic time warping
@@ -59,14 +59,13 @@ class ShapeFit {
   Point misplaced_ = Point::Zero();
   double turned_ = 0.0, along_ = 0.0;  ///< sine and cosine of the similarity nearest to the map, times its size
   int round_ = rounds + 1;  ///< from 1; 0 before the path is read
-  std::size_t row_ = 0;  ///< the next one of the sums; before and after all of them the map and the pairs are due
-  bool is_mapped_ = false;
+  bool is_mapped_ = false;  ///< in this round
+  std::size_t row_ = 0;     ///< the next one of the sums
   /// Least sums of squared distances up to each pair of nodes: sums_[i][j - i + band + 1], infinite beyond the band.
   std::array<std::array<double, 2 * band + 3>, nodes> sums_;
   std::array<unsigned char, 2 * nodes> pen_paired_, stroke_paired_;
-  std::size_t pairs_ = 0;
-  std::size_t later_pairs_ = 0;
-  double square_ = 0.0, later_square_ = 0.0;  ///< sums of the squared distances of the pairs; later: ShapeMatch
+  std::size_t pairs_ = 0, later_pairs_ = 0;
+  double square_ = 0.0, later_square_ = 0.0;  ///< sums of their squared distances; later: as in ShapeMatch
   ShapeMatch match_;
 };
 

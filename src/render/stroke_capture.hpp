@@ -66,7 +66,7 @@ class StrokeCapture {
  private:
   Point anchor_ = Point::Zero();  ///< follows the pen at the length of the first stretch
   Point own_begin_ = Point::Zero();
-  Point down_ = Point::Zero();    ///< where the pen was put down
+  Point down_ = Point::Zero();  ///< where the pen was put down
   CaptureVerdict verdict_ = CaptureVerdict::undecided;
   bool is_nearest_ = false;
   bool is_first_ = true;             ///< the pen has not yet written a first stretch since it was put down

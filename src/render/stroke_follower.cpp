@@ -30,10 +30,8 @@ constexpr double bend = 0.03, bend_cosine = 0.8;
 constexpr double follow = 1.0, give_up = 0.05;
 
 /// The pen's way is measured in chords of this length, which a fine tremor does not lengthen [em].
-constexpr double chord = 0.03;
+constexpr double chord = WrittenPath::chord;
 
-/// Share of the exact way that a pen must have gone, in chords: less is a part of the stroke, however it is stretched.
-constexpr double min_way = 0.57;
 /// A pen that begins the stroke after its start makes up for that on the way to the end: for at most this share of it.
 constexpr double max_late_share = 0.25;
 /// Share of the stroke that must be covered in order, however short it is: half of it, less what counts as abreast.
@@ -92,7 +90,7 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
     for (int k = 1; k <= parts; ++k) measure(point(i - 1) + (point(i) - point(i - 1)) * k / parts);
   }
   const double exact_way = chords_ + (point(count_ - 1) - chord_from_).norm();
-  shortest_way_ = min_way * exact_way;
+  shortest_way_ = shortest_share_of_way * exact_way;
   least_way_ = exact_way > 0.0 ? least_share_of_way(length_ / em, tolerances) * exact_way : 0.0;
 }
 

@@ -64,7 +64,7 @@ class StrokeFollower {
   double em_ = 0.0, length_ = 0.0, spacing_ = 0.0;
   double width_ = 0.0;      ///< of the corridor to each side
   double lead_ = 0.0;       ///< a point this far ahead or behind is abreast of the pen
-  double least_way_ = 0.0;   ///< of a pen that has written enough of the stroke
+  double least_way_ = 0.0;  ///< of a pen that has written enough of the stroke
   double shortest_way_ = 0.0;  ///< likewise, however much of it friction hides
   double share_ = 0.0, slack_ = 0.0;
   std::vector<RowPoint> row_;  ///< with the last one twice, since they are placed in pairs

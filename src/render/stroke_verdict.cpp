@@ -8,9 +8,9 @@ namespace {
 /// With normal tolerances; they follow `coverage` and `corridor`.
 constexpr double usual_coverage = 0.9, usual_corridor = 0.06;
 
-/// Least share of the length: that of a long stroke, and of the shortest one, where so much may be missing [em]; they
-/// change with `coverage` by this much.
-constexpr double long_share = 0.67, short_share = 0.57, missing = 0.075, by_coverage = 0.7;
+/// Least share of the length of a long stroke; of a shorter one so much may be missing [em]. By how much `coverage`
+/// changes it.
+constexpr double long_share = 0.67, missing = 0.075, by_coverage = 0.7;
 /// What may be missing besides if the next stroke decides, and the share that is always needed.
 constexpr double doubt = 0.05, least_extent = 0.55;
 /// From the share `coverage` less this on it does not matter where the rest is missing; below, at most twice `slack`.
@@ -50,7 +50,7 @@ bool is_another_shape(const ShapeMatch& match, const StrokeShape& stroke, const 
 
 double least_share_of_way(double length, const StrokeTolerances& tolerances) noexcept {
   const double more = by_coverage * (tolerances.coverage - usual_coverage);
-  const double of_short = short_share + std::max(more, 0.0);
+  const double of_short = shortest_share_of_way + std::max(more, 0.0);
   return std::clamp(1.0 - missing / length, of_short, std::max(of_short, long_share + more));
 }
 

@@ -14,6 +14,9 @@ enum class StrokeVerdict {
   finished
 };
 
+/// No shorter a share of a stroke is one, however it is stretched and however much of it friction hides.
+inline constexpr double shortest_share_of_way = 0.57;
+
 /// The least share of a stroke of `length` [em] that the pen's way must have: less of a short one.
 double least_share_of_way(double length, const StrokeTolerances& tolerances) noexcept;
 
