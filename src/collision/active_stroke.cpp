@@ -57,7 +57,7 @@ StrokeContact ActiveStroke::nearest(const Point& tip, const StrokeOptions& optio
   contact.closest.distance = std::numeric_limits<double>::infinity();
   for (int i = 0; i < element_count(); ++i) {
     const StrokeElement& element = part(i).element;
-    const NearestPoint closest = nearest_point(element, tip, options.nearest);
+    const NearestPoint closest = nearest_point(element, tip, options.nearest, {}, 0.0);  // usually near the start
     if (!(closest.distance < contact.closest.distance)) continue;
     contact.element = i;
     contact.closest = closest;

@@ -14,7 +14,7 @@ PreparedPage::PreparedPage(std::vector<PlacedCharacter> characters, const Render
     for (const Stroke& stroke : strokes(placed.character)) {
       PreparedStroke& next = prepared.emplace_back();
       next.geometry.load(stroke, placed.placement);
-      next.follower.load(next.geometry, placed.placement.em, options.tolerances);
+      next.follower.load(next.geometry, placed.placement.em, options.tolerances, options.servo_rate);
       next.shape = shape_of(next.geometry, placed.placement.em);
     }
     prepared_.push_back({placed.placement.em, std::move(prepared), stroke_starts(placed, options.tolerances), box});

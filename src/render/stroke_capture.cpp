@@ -23,11 +23,15 @@ struct Misfit {
   bool tolerable() const { return place <= 1.0 && direction <= 1.0; }
 };
 
+double misplacement(const StrokeStart& start, const Point& from, double em, const StrokeTolerances& tolerances) {
+  return (from - start.point).norm() / (tolerances.start_distance * em);
+}
+
 Misfit misfit(const StrokeStart& start, const Point& from, const Point& way, double em,
               const StrokeTolerances& tolerances) {
   const double sine = start.direction.x() * way.y() - start.direction.y() * way.x();
   const double angle = std::abs(std::atan2(sine, start.direction.dot(way)));
-  return {(from - start.point).norm() / (tolerances.start_distance * em), angle / tolerances.direction};
+  return {misplacement(start, from, em, tolerances), angle / tolerances.direction};
 }
 
 /// A pen that was put down beside a stroke may approach it, by itself or led by guidance: only the rest of its way from
@@ -103,6 +107,7 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
   const Misfit expected = misfit(start, seen, shown, em, tolerances);
   bool is_other = false, is_nearer = false;
   for (std::size_t later = due + 1; later < starts.size(); ++later) {
+    if (!(misplacement(starts[later], seen, em, tolerances) <= 1.0)) continue;  // most of them: no need of the angle
     const Misfit other = misfit(starts[later], seen, shown, em, tolerances);
     if (!other.tolerable() || other.size() >= expected.size() / tolerances.distinction) continue;
     is_other = true;

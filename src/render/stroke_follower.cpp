@@ -21,6 +21,11 @@ constexpr double max_lead = 0.03, max_lead_share = 0.15;
 /// The pen is looked at each time it has moved this far [em].
 constexpr double step = 0.01;
 
+constexpr double looks_a_second = 2000.0;  ///< of the pen on its way, at least one a tick
+
+/// The end of the stroke may be reached soon from within this distance [em].
+constexpr double end_zone = 0.1;
+
 /// The stroke bends sharply at a point where its directions from this far before and to this far after differ by more
 /// than 37 degrees [em].
 constexpr double bend = 0.03, bend_cosine = 0.8;
@@ -55,8 +60,11 @@ double left(const Point& vector, const Point& direction) {
 
 }  // namespace
 
-void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTolerances& tolerances) {
+void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTolerances& tolerances,
+                          double servo_rate) {
   em_ = em;
+  const double looks_a_tick = servo_rate > 0.0 ? std::ceil(looks_a_second / servo_rate) : all_looks;
+  looks_a_tick_ = static_cast<int>(std::min(looks_a_tick, 1.0 * all_looks));
   length_ = stroke.length();
   count_ = static_cast<int>(std::clamp(std::ceil(length_ / (spacing * em)) + 1.0, static_cast<double>(min_points),
                                        static_cast<double>(max_points)));
@@ -103,23 +111,39 @@ void StrokeFollower::begin(const Point& tip, const Point& misplaced) noexcept {
   tip_ = seen_ = chord_from_ = tip;
   nearest_ = covered_ = way_ = outside_ = chords_ = 0.0;
   pull_ = Point::Zero();
+  leg_steps_ = 0;
   to_end_ = length_;
 }
 
 void StrokeFollower::update(const Point& tip, const Point& hand) noexcept {
   tip_ = tip;
   pull_ = hand - tip;
-  if ((tip - seen_).squaredNorm() >= step * em_ * (step * em_)) look_along();
+  if (leg_steps_ > 0 || (tip - seen_).squaredNorm() >= step * em_ * (step * em_)) look_along(looks_a_tick_);
 }
 
-void StrokeFollower::leave() noexcept { look(tip_, (tip_ - seen_).norm()); }
+void StrokeFollower::leave() noexcept {
+  look_along(all_looks);
+  look(tip_, (tip_ - seen_).norm());
+}
 
-/// Fills in between samples: of lost ones, and of a first stretch that does not bend, only the ends are known.
-[[gnu::noinline]] void StrokeFollower::look_along() noexcept {
-  const Point from = seen_;
-  const double moved = (tip_ - from).norm();
-  const int steps = static_cast<int>(std::min(moved / (step * em_), 1.0 * max_points));
-  for (int i = 1; i <= steps; ++i) look(from + (tip_ - from) * i / steps, moved / steps);
+/// Fills in between samples: of lost ones, and of a first stretch that does not bend, only the ends are known. What
+/// takes more than so many looks goes on in the next ticks, but not near the end, which must not be noticed late.
+[[gnu::noinline]] void StrokeFollower::look_along(int looks) noexcept {
+  const double near_end = end_zone * em_;
+  if ((tip_ - row(count_ - 1).point).squaredNorm() < near_end * near_end) looks = all_looks;
+  for (; looks > 0; --looks) {
+    if (leg_steps_ == 0) {  // another leg
+      leg_from_ = seen_;
+      leg_ = tip_ - seen_;
+      leg_way_ = leg_.norm();
+      leg_steps_ = static_cast<int>(std::min(leg_way_ / (step * em_), 1.0 * max_points));
+      leg_step_ = 0;
+      if (leg_steps_ == 0) return;
+    }
+    const int steps = leg_steps_;
+    if (++leg_step_ == steps) leg_steps_ = 0;
+    look(leg_from_ + leg_ * leg_step_ / steps, leg_way_ / steps);
+  }
 }
 
 /// How far a vector from the stroke reaches across it, beyond the offsets that the writer may have: none, that of the

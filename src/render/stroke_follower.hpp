@@ -16,8 +16,9 @@ namespace calligraphy {
 /// distance, 1994). The writer's offset is allowed for, as docs/capture.md explains. Only load() allocates.
 class StrokeFollower {
  public:
-  /// Loads the stroke to be written, in a square of `em` [m]. Takes a few microseconds.
-  void load(const ActiveStroke& stroke, double em, const StrokeTolerances& tolerances);
+  /// Loads the stroke to be written, in a square of `em` [m]. Takes a few microseconds. `servo_rate`: of the updates
+  /// [Hz], over which long ways are spread; at 0, which stands for one that is not known, they are not.
+  void load(const ActiveStroke& stroke, double em, const StrokeTolerances& tolerances, double servo_rate = 0.0);
 
   /// The stroke is begun at `tip`, in a character that the writer has misplaced by `misplaced` so far [m, page].
   void begin(const Point& tip, const Point& misplaced) noexcept;
@@ -38,7 +39,8 @@ class StrokeFollower {
   double astray(const Point& hand, const StrokeContact& contact) const noexcept;
 
  private:
-  static constexpr int max_points = 64;  // as many as the bits of a word
+  static constexpr int max_points = 64;             // as many as the bits of a word
+  static constexpr int all_looks = 2 * max_points;  // at a leg that was left, and at another
 
   struct RowPoint {
     Point point, tangent;
@@ -55,7 +57,7 @@ class StrokeFollower {
   void place(const Point& tip, int point, Places& places) const noexcept;
   void pass_special(int point, double square, Places& places) const noexcept;
   double across(const Point& from_stroke, const Point& tangent) const noexcept;
-  void look_along() noexcept;
+  void look_along(int looks) noexcept;
   void look(const Point& tip, double way) noexcept;
   void measure(const Point& tip) noexcept;
 
@@ -68,6 +70,7 @@ class StrokeFollower {
   double shortest_way_ = 0.0;  ///< likewise, however much of it friction hides
   double share_ = 0.0, slack_ = 0.0;
   std::vector<RowPoint> row_;  ///< with the last one twice, since they are placed in pairs
+  int looks_a_tick_ = 0;
   std::uint64_t special_ = 0;  ///< bit i: the stroke bends sharply at point i, or ends there
 
   // The pen. [m]
@@ -78,6 +81,10 @@ class StrokeFollower {
   Point tip_ = Point::Zero();         ///< of the last sample
   Point pull_ = Point::Zero();        ///< from there to where the hand means to be
   Point seen_ = Point::Zero();        ///< where the pen was last looked at
+  Point leg_from_ = Point::Zero();    ///< beginning of the leg of the pen's path that is being looked at
+  Point leg_ = Point::Zero();         ///< from there to its end
+  double leg_way_ = 0.0;              ///< its length
+  int leg_step_ = 0, leg_steps_ = 0;  ///< looks done and in all; 0 where there is no leg
   Point chord_from_ = Point::Zero();  ///< beginning of the current chord
   double nearest_ = 0.0;              ///< arc length of the furthest point that the pen was nearest to
   double covered_ = 0.0;              ///< arc length

@@ -51,6 +51,7 @@ struct Circumstances {
   StrokeTolerances tolerances = StrokeTolerances::normal();
   Point misplaced = Point::Zero();  ///< [m]
   double hidden = 0.0;              ///< [m]
+  double servo_rate = 0.0;          ///< [Hz]
 };
 
 /// A pen that begins the stroke with the first point of `path`.
@@ -58,7 +59,7 @@ Written write(const Character& character, const std::vector<Point>& path, const 
   ActiveStroke active;
   active.load(strokes(character)[0], place);
   StrokeFollower follower;
-  follower.load(active, em, given.tolerances);
+  follower.load(active, em, given.tolerances, given.servo_rate);
   follower.begin(path.front(), given.misplaced);
   for (const Point& tip : path) follower.update(tip, tip);
   const bool at_end = follower.is_at_end(given.hidden);
@@ -321,6 +322,24 @@ TEST_CASE("samples that are lost on a straight way change nothing, and nor does 
     CHECK(every(distance).covered == Approx(fine.covered).margin(0.01));
     CHECK(every(distance).accepted);
   }
+}
+
+TEST_CASE("a way that is looked at over several ticks ends the same, and the stroke's end is not noticed late", "[render]") {
+  const Circumstances spread{normal, Point::Zero(), 0.0, 1000.0};
+  for (const TypicalStroke& type : typical_strokes()) {
+    const Character character = calligraphy_test::typical_character(type.id);
+    for (const double lost : {0.05, 0.1, 0.4}) {  // [em]
+      std::vector<Point> path = path_of(strokes(character)[0], place, 2.0 * step);
+      const auto first = std::min(path.size() - 1, static_cast<std::size_t>(lost * em / (2.0 * step)));
+      path.erase(path.begin() + 1, path.begin() + static_cast<std::ptrdiff_t>(first));
+      INFO("typical stroke " << type.id << ", of which " << lost << " em are lost");
+      const Written at_once = write(character, path), later = write(character, path, spread);
+      CHECK(later.covered == Approx(at_once.covered).margin(0.01));
+      CHECK(later.at_end == at_once.at_end);
+      CHECK(later.accepted == at_once.accepted);
+    }
+  }
+  CHECK(write(line, {from_start(0, 0), from_start(long_one, 0)}, spread).at_end);
 }
 
 TEST_CASE("a dot without length is written where it is begun", "[render]") {
