@@ -104,10 +104,10 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
 
   // The writer was off by about as much on the strokes before.
   const Point seen = anchor_ - misplaced();
-  const Misfit expected = misfit(start, seen, shown, em, tolerances);
   bool is_other = false, is_nearer = false;
   for (std::size_t later = due + 1; later < starts.size(); ++later) {
-    if (!(misplacement(starts[later], seen, em, tolerances) <= 1.0)) continue;  // most of them: no need of the angle
+    if (!(misplacement(starts[later], seen, em, tolerances) <= 1.0)) continue;  // as most: no need of angles
+    const Misfit expected = misfit(start, seen, shown, em, tolerances);
     const Misfit other = misfit(starts[later], seen, shown, em, tolerances);
     if (!other.tolerable() || other.size() >= expected.size() / tolerances.distinction) continue;
     is_other = true;

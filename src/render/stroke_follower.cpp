@@ -138,7 +138,7 @@ void StrokeFollower::leave() noexcept {
       leg_way_ = leg_.norm();
       leg_steps_ = static_cast<int>(std::min(leg_way_ / (step * em_), 1.0 * max_points));
       leg_step_ = 0;
-      if (leg_steps_ == 0) return;
+      if (leg_steps_ == 0 || leg_steps_ > looks) return;  // the tick that brings a long leg has enough to do
     }
     const int steps = leg_steps_;
     if (++leg_step_ == steps) leg_steps_ = 0;
