@@ -138,7 +138,11 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
     if (input.contact) write_on(pen);
     input.stroke_finished = is_finished(pen);
   } else if (input.contact && input.may_start) {
-    if (writer_.state == InteractionState::separation) put_down(tip);
+    if (writer_.state == InteractionState::separation) {
+      put_down(tip);
+    } else if (seeks_rest_) {
+      find_rest(tip);
+    }
     input.begins = begins(pen);
   }
   return input;
@@ -147,7 +151,12 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
 [[gnu::noinline]] void StrokeSequencer::put_down(const Point& tip) noexcept {
   writer_.covered = 0.0;
   set_out(tip);
-  if (tolerances_.coverage == 0.0) return;
+  seeks_rest_ = tolerances_.coverage > 0.0;
+}
+
+/// Whether the pen rests on the stroke: in the tick after it was put down, which has enough to do.
+[[gnu::noinline]] void StrokeSequencer::find_rest(const Point& tip) noexcept {
+  seeks_rest_ = false;
   const StrokeContact nearest = due_->geometry.nearest(tip, stroke_);
   writer_.rests = nearest.closest.distance <= tolerances_.corridor * writer_.em;
   if (!writer_.rests) return;
@@ -263,7 +272,7 @@ void StrokeSequencer::step_fit() noexcept {
   writer_.events |= TickEvent::stroke_started;
   if (in_doubt_) writer_.events |= TickEvent::stroke_abandoned;
   in_doubt_ = false;
-  writer_.rests = passed_end_ = false;
+  writer_.rests = seeks_rest_ = passed_end_ = false;
   look_ = Look::none;
   due_->geometry.begin(attempt_.capture.begin());
   if (!start(writer_.stroke).bends) {
@@ -379,7 +388,7 @@ void StrokeSequencer::step_fit() noexcept {
 
 [[gnu::noinline]] void StrokeSequencer::lift() noexcept {
   writer_.events |= TickEvent::lift;
-  writer_.rests = false;
+  writer_.rests = seeks_rest_ = false;
   if (all_written()) return;
   if (is_character_written()) activate(writer_.character + 1, 0);
 }
@@ -391,7 +400,7 @@ void StrokeSequencer::step_fit() noexcept {
   }
   writer_.character = character;
   writer_.stroke = stroke;
-  writer_.rests = false;
+  writer_.rests = seeks_rest_ = false;
   character_ = character < page_.size() ? &page_[character] : nullptr;
   if (all_written()) return;
   due_ = &this->stroke(stroke);
@@ -463,7 +472,7 @@ bool StrokeSequencer::is_guided() const noexcept {
     case WritingPhase::at_start:
       return attempt_.capture.is_nearest();
     default:
-      return leads_to_start_ && attempt_.capture.is_nearest() && !writer_.rests;
+      return leads_to_start_ && attempt_.capture.is_nearest() && !writer_.rests && !seeks_rest_;
   }
 }
 
