@@ -21,7 +21,10 @@ constexpr double max_lead = 0.03, max_lead_share = 0.15;
 /// The pen is looked at each time it has moved this far [em].
 constexpr double step = 0.01;
 
-constexpr double looks_a_second = 2000.0;  ///< of the pen on its way, at least one a tick
+/// The pen's way is looked at this often, at least once a tick, but each leg of it within so many ticks: a fast pen is
+/// never far ahead.
+constexpr double looks_a_second = 2000.0;
+constexpr int max_leg_ticks = 4;
 
 /// The end of the stroke may be reached soon from within this distance [em].
 constexpr double end_zone = 0.1;
@@ -63,8 +66,8 @@ double left(const Point& vector, const Point& direction) {
 void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTolerances& tolerances,
                           double servo_rate) {
   em_ = em;
-  const double looks_a_tick = servo_rate > 0.0 ? std::ceil(looks_a_second / servo_rate) : all_looks;
-  looks_a_tick_ = static_cast<int>(std::min(looks_a_tick, 1.0 * all_looks));
+  const double looks_a_tick = servo_rate > 0.0 ? std::ceil(looks_a_second / servo_rate) : max_points;
+  looks_a_tick_ = static_cast<int>(std::min(looks_a_tick, 1.0 * max_points));
   length_ = stroke.length();
   count_ = static_cast<int>(std::clamp(std::ceil(length_ / (spacing * em)) + 1.0, static_cast<double>(min_points),
                                        static_cast<double>(max_points)));
@@ -118,32 +121,37 @@ void StrokeFollower::begin(const Point& tip, const Point& misplaced) noexcept {
 void StrokeFollower::update(const Point& tip, const Point& hand) noexcept {
   tip_ = tip;
   pull_ = hand - tip;
-  if (leg_steps_ > 0 || (tip - seen_).squaredNorm() >= step * em_ * (step * em_)) look_along(looks_a_tick_);
+  if (leg_steps_ > 0 || (tip - seen_).squaredNorm() >= step * em_ * (step * em_)) look_along(false);
 }
 
 void StrokeFollower::leave() noexcept {
-  look_along(all_looks);
+  look_along(true);
   look(tip_, (tip_ - seen_).norm());
 }
 
-/// Fills in between samples: of lost ones, and of a first stretch that does not bend, only the ends are known. What
-/// takes more than so many looks goes on in the next ticks, but not near the end, which must not be noticed late.
-[[gnu::noinline]] void StrokeFollower::look_along(int looks) noexcept {
+/// Fills in between samples: of lost ones, and of a first stretch that does not bend, only the ends are known. A leg
+/// that is too long for one tick is looked at in the next ones, since the tick that brings it has enough to do, but not
+/// near the end, which must not be noticed late.
+[[gnu::noinline]] void StrokeFollower::look_along(bool at_once) noexcept {
   const double near_end = end_zone * em_;
-  if ((tip_ - row(count_ - 1).point).squaredNorm() < near_end * near_end) looks = all_looks;
-  for (; looks > 0; --looks) {
-    if (leg_steps_ == 0) {  // another leg
+  at_once = at_once || (tip_ - row(count_ - 1).point).squaredNorm() < near_end * near_end;
+  do {
+    if (leg_steps_ == 0) {
       leg_from_ = seen_;
       leg_ = tip_ - seen_;
       leg_way_ = leg_.norm();
       leg_steps_ = static_cast<int>(std::min(leg_way_ / (step * em_), 1.0 * max_points));
       leg_step_ = 0;
-      if (leg_steps_ == 0 || leg_steps_ > looks) return;  // the tick that brings a long leg has enough to do
+      if (leg_steps_ == 0 || (leg_steps_ > looks_a_tick_ && !at_once)) return;
     }
-    const int steps = leg_steps_;
-    if (++leg_step_ == steps) leg_steps_ = 0;
-    look(leg_from_ + leg_ * leg_step_ / steps, leg_way_ / steps);
-  }
+    const int looks = at_once ? leg_steps_ : std::max(looks_a_tick_, leg_steps_ / max_leg_ticks);
+    const int last = std::min(leg_steps_, leg_step_ + looks);
+    while (leg_step_ < last) {
+      ++leg_step_;
+      look(leg_from_ + leg_ * leg_step_ / leg_steps_, leg_way_ / leg_steps_);
+    }
+    if (last == leg_steps_) leg_steps_ = 0;
+  } while (at_once);
 }
 
 /// How far a vector from the stroke reaches across it, beyond the offsets that the writer may have: none, that of the

@@ -39,8 +39,7 @@ class StrokeFollower {
   double astray(const Point& hand, const StrokeContact& contact) const noexcept;
 
  private:
-  static constexpr int max_points = 64;             // as many as the bits of a word
-  static constexpr int all_looks = 2 * max_points;  // at a leg that was left, and at another
+  static constexpr int max_points = 64;  // as many as the bits of a word
 
   struct RowPoint {
     Point point, tangent;
@@ -57,7 +56,7 @@ class StrokeFollower {
   void place(const Point& tip, int point, Places& places) const noexcept;
   void pass_special(int point, double square, Places& places) const noexcept;
   double across(const Point& from_stroke, const Point& tangent) const noexcept;
-  void look_along(int looks) noexcept;
+  void look_along(bool at_once) noexcept;
   void look(const Point& tip, double way) noexcept;
   void measure(const Point& tip) noexcept;
 
