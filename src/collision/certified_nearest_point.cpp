@@ -49,25 +49,16 @@ template <int Degree>
 [[gnu::noinline]] NearestPoint nearest_of_several(const CurveElement& curve,
                                                   SlopeSigns<CurveElement::max_ordinates> signs, Pair query,
                                                   double tolerance, const ParameterRange& range) {
-  constexpr int per_cell = 2 * Degree - 1;
-  constexpr double width = 1.0 / cells_of_degree(Degree);
   const double allowed = allowed_error<Degree>(tolerance);
-  int last_cell = -1;
-  for (std::uint64_t changes = signs.changes(); changes != 0; changes &= changes - 1) {
-    const int cell = std::countr_zero(changes) / per_cell;
-    if (cell == last_cell) return search_minima(curve, query, tolerance, range);  // two in one cell
-    last_cell = cell;
-  }
+  if (!one_change_per_cell<Degree>(signs.changes())) return search_minima(curve, query, tolerance, range);
   const SlopePolynomial<Degree> polynomial(curve, query);
   Candidate best = candidate<Degree>(curve, query, 0.0);
-  // Only changes from - to +: the others are maxima.
-  for (std::uint64_t changes = signs.changes() & signs.negative; changes != 0; changes &= changes - 1) {
-    const int change = std::countr_zero(changes);
-    const int cell = change / per_cell;
-    const double start = middles<Degree>[static_cast<std::size_t>(change)];
+  for (std::uint64_t left = signs.minima(); left != 0; left &= left - 1) {
+    const int change = std::countr_zero(left);
+    const double start = middles<Degree>[static_cast<std::size_t>(change + 1)];
     Residue residue;
     const Candidate found = polish<Degree>(curve, polynomial, query, start, residue);
-    if (!(residue.converged(curve, allowed) && found.t >= cell * width && found.t <= (cell + 1) * width)) {
+    if (!(residue.converged(curve, allowed) && in_cell<Degree>(change, found.t))) {
       return search_minima(curve, query, tolerance, range);
     }
     if (nearer(found, best)) best = found;
@@ -86,10 +77,9 @@ template <int Degree>
                                                       SlopeSigns<CurveElement::max_ordinates> signs, Pair query,
                                                       double tolerance, const ParameterRange& range) {
   if (signs.certain) {
-    const std::uint64_t changes = signs.changes();
-    if (changes == 0) return end_of<Degree>(curve, signs.first_negative(), query, range);
-    if (signs.first_negative() && (changes & (changes - 1)) == 0) {
-      const double start = middles<Degree>[static_cast<std::size_t>(std::countr_zero(changes))];
+    if (signs.changes() == 0) return end_of<Degree>(curve, signs.first_negative(), query, range);
+    if (signs.one_minimum()) {
+      const double start = middles<Degree>[static_cast<std::size_t>(signs.first_negatives())];
       Residue residue;
       const Candidate found = polish<Degree>(curve, SlopePolynomial<Degree>(curve, query), query, start, residue);
       if (residue.converged(curve, allowed_error<Degree>(tolerance))) {

@@ -77,8 +77,9 @@ struct Residue {
   [[gnu::always_inline]] bool converged(const CurveElement& curve, double allowed) const {
     // The last step is so small that two terms of the Taylor series of the curve give the new position up to rounding.
     constexpr double max_step = 1e-5;
-    return std::abs(step) <= max_step && slope > curve.min_slope &&
-           step * step * std::abs(bend) <= 2.0 * allowed * slope;
+    const bool small = std::abs(step) <= max_step, steep = slope > curve.min_slope;
+    const bool accurate = step * step * std::abs(bend) <= 2.0 * allowed * slope;
+    return small & steep & accurate;  // without branches, for loops that vectorise
   }
 };
 
@@ -89,16 +90,21 @@ template <int Degree>
   return tolerance * (0.5 / Degree);
 }
 
-/// Zero of g near t. The caller knows that there is only one, and checks for convergence.
-template <int Degree, typename Vector>
-[[gnu::always_inline]] inline CurvePoint<Vector> polish(const CurveElement& curve,
-                                                        const SlopePolynomial<Degree>& polynomial, Vector query,
-                                                        double t, Residue& residue) {
+/// A step of Halley's method, of fourth order, towards the zero of g near t.
+template <int Degree>
+[[gnu::always_inline]] inline double approach(const SlopePolynomial<Degree>& polynomial, double t, double& bend) {
   const auto value = polynomial.at(t);
   const double slope_square = value.slope * value.slope, turned = value.g * value.bend;
-  t -= value.g * (slope_square - 0.5 * turned) /
-       (value.slope * (slope_square - turned) + value.g * value.g * value.sixth_twist);
+  bend = value.bend;
+  return t - value.g * (slope_square - 0.5 * turned) /
+                 (value.slope * (slope_square - turned) + value.g * value.g * value.sixth_twist);
+}
 
+/// A step of Newton's method on the curve itself; `bend` is that of `approach`.
+template <int Degree, typename Vector>
+[[gnu::always_inline]] inline CurvePoint<Vector> settle(const CurveElement& curve,
+                                                        const SlopePolynomial<Degree>& polynomial, Vector query,
+                                                        double t, double bend, Residue& residue) {
   CurvePoint<Vector> at = candidate<Degree>(curve, query, t);
   const Vector acceleration = second_derivative<Degree, Vector>(curve, t);
   const double slope = polynomial.slope(t);
@@ -108,8 +114,17 @@ template <int Degree, typename Vector>
   at.place = at.place - moved;
   at.offset = at.offset - moved;
   at.velocity = at.velocity - acceleration * step;
-  residue = {step, slope, value.bend};
+  residue = {step, slope, bend};
   return at;
+}
+
+/// Zero of g near t. The caller knows that there is only one, and checks for convergence.
+template <int Degree>
+[[gnu::always_inline]] inline Candidate polish(const CurveElement& curve, const SlopePolynomial<Degree>& polynomial,
+                                               Pair query, double t, Residue& residue) {
+  double bend;
+  t = approach<Degree>(polynomial, t, bend);
+  return settle<Degree>(curve, polynomial, query, t, bend, residue);
 }
 
 }  // namespace calligraphy

@@ -1,6 +1,7 @@
 // Signs of the slope's Bernstein ordinates for one query: the processor-specific part of the nearest point.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +28,15 @@ struct SlopeSigns {
   bool last_negative() const { return (negative >> (Count - 1)) & 1U; }
   /// Bit i: ordinates i and i + 1 have different signs.
   std::uint64_t changes() const { return (negative ^ (negative >> 1)) & ((std::uint64_t{1} << (Count - 1)) - 1); }
+  /// Those changes from - to +: a minimum lies there.
+  std::uint64_t minima() const { return changes() & negative; }
+  /// Number of ordinates below zero before the first one that is not.
+  int first_negatives() const { return std::countr_zero(~negative | (std::uint64_t{1} << Count)); }
+  /// The signs are - up to one ordinate and + from the next one on.
+  bool one_minimum() const {
+    constexpr std::uint64_t all = (std::uint64_t{1} << Count) - 1;
+    return ((negative & (negative + 1)) == 0) & (negative - 1 < all - 1);
+  }
 };
 
 /// Signs of the ordinates, without those that rounding could flip.
