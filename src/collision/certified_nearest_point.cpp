@@ -43,6 +43,15 @@ template <int Degree>
   return curve_answer(curve, end, NearestPointStatus::certified);
 }
 
+/// For a minimum that the first steps missed: the same steps from where they ended, or from the end of its cell.
+template <int Degree>
+[[gnu::noinline]] Candidate polish_again(const CurveElement& curve, Pair query, int change, double t,
+                                         Residue& residue) {
+  const ParameterRange cell = cell_of<Degree>(change);
+  const double start = std::clamp(t, cell.begin, cell.end);
+  return polish<Degree>(curve, SlopePolynomial<Degree>(curve, query), query, start, residue);
+}
+
 /// For several sign changes on the whole curve, all certain: each cell with one change from - to + contains one
 /// minimum. The result is the nearest of these and the ends.
 template <int Degree>
@@ -57,7 +66,8 @@ template <int Degree>
     const int change = std::countr_zero(left);
     const double start = middles<Degree>[static_cast<std::size_t>(change + 1)];
     Residue residue;
-    const Candidate found = polish<Degree>(curve, polynomial, query, start, residue);
+    Candidate found = polish<Degree>(curve, polynomial, query, start, residue);
+    if (!residue.converged(curve, allowed)) found = polish_again<Degree>(curve, query, change, found.t, residue);
     if (!(residue.converged(curve, allowed) && in_cell<Degree>(change, found.t))) {
       return search_minima(curve, query, tolerance, range);
     }
@@ -80,11 +90,14 @@ template <int Degree>
     if (signs.changes() == 0) return end_of<Degree>(curve, signs.first_negative(), query, range);
     if (signs.one_minimum()) {
       const double start = middles<Degree>[static_cast<std::size_t>(signs.first_negatives())];
+      const double allowed = allowed_error<Degree>(tolerance);
       Residue residue;
       const Candidate found = polish<Degree>(curve, SlopePolynomial<Degree>(curve, query), query, start, residue);
-      if (residue.converged(curve, allowed_error<Degree>(tolerance))) {
+      if (residue.converged(curve, allowed)) [[likely]] {
         return answer_within<Degree>(curve, found, query, tolerance, range);
       }
+      const Candidate again = polish_again<Degree>(curve, query, signs.first_negatives() - 1, found.t, residue);
+      if (residue.converged(curve, allowed)) return answer_within<Degree>(curve, again, query, tolerance, range);
     } else if (range.begin <= 0.0 && range.end >= 1.0) {
       return nearest_of_several<Degree>(curve, signs, query, tolerance, range);
     }

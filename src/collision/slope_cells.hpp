@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <calligraphy/collision/detail/curve_element.hpp>
+#include <calligraphy/collision/nearest_point.hpp>
 
 namespace calligraphy {
 
@@ -38,12 +38,18 @@ template <int Degree>
   return (changes & second) == 0;
 }
 
-/// Whether t lies in the cell of this sign change.
+/// Parameters of the cell of this sign change.
 template <int Degree>
-[[gnu::always_inline]] inline bool in_cell(int change, double t) {
+[[gnu::always_inline]] inline ParameterRange cell_of(int change) {
   constexpr double width = 1.0 / cells_of_degree(Degree);
   const int cell = change / (2 * Degree - 1);
-  return t >= cell * width && t <= (cell + 1) * width;
+  return {cell * width, (cell + 1) * width};
+}
+
+template <int Degree>
+[[gnu::always_inline]] inline bool in_cell(int change, double t) {
+  const ParameterRange cell = cell_of<Degree>(change);
+  return t >= cell.begin && t <= cell.end;
 }
 
 /// Position of ordinate i in memory. Packing the signs of registers of eight interleaves their halves, so the ordinates
