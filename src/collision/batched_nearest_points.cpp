@@ -83,9 +83,9 @@ template <int Degree>
   for (std::size_t i = 0; i < count; ++i) {
     const Coordinates place = {minima.place_x[i], minima.place_y[i]}, offset = {minima.offset_x[i], minima.offset_y[i]},
                       velocity = {minima.velocity_x[i], minima.velocity_y[i]};
-    const double speed = std::sqrt(dot(velocity, velocity));
+    const double square = dot(velocity, velocity), speed = std::sqrt(square);
     const Coordinates point = vector_of<Coordinates>(curve.origin) + place * curve.size;
-    const Coordinates tangent = velocity * (1.0 / speed);
+    const Coordinates tangent = velocity * (speed * (1.0 / square));
     minima.point_x[i] = point.x;
     minima.point_y[i] = point.y;
     minima.distance[i] = curve.size * std::sqrt(dot(offset, offset));

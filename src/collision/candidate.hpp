@@ -39,9 +39,9 @@ inline constexpr double min_speed = 1e-7;
 
 [[gnu::always_inline]] inline NearestPoint curve_answer(const CurveElement& curve, const Candidate& at,
                                                         NearestPointStatus status) {
-  const double speed = std::sqrt(dot(at.velocity, at.velocity));
+  const double square = dot(at.velocity, at.velocity), speed = std::sqrt(square);
   const Pair point = pair(curve.origin) + at.place * curve.size;
-  const Pair tangent = at.velocity * (1.0 / speed);
+  const Pair tangent = at.velocity * (speed * (1.0 / square));
   NearestPoint answer{at.t, Point(point[0], point[1]), curve.size * std::sqrt(dot(at.offset, at.offset)),
                       Point(tangent[0], tangent[1]), status};
   if (!(speed > min_speed)) [[unlikely]]
