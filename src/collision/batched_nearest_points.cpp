@@ -77,7 +77,8 @@ template <int Degree>
     minima.offset_y[i] = at.offset.y;
     minima.velocity_x[i] = at.velocity.x;
     minima.velocity_y[i] = at.velocity.y;
-    const bool converged = residue.converged(curve, allowed), inside = (at.t >= 0.0) & (at.t <= 1.0);
+    const bool converged = residue.converged_without_branches(curve, allowed);
+    const bool inside = (at.t >= 0.0) & (at.t <= 1.0);
     minima.refined[i] = (converged & inside) ? 1.0 : 0.0;
   }
   for (std::size_t i = 0; i < count; ++i) {

@@ -74,12 +74,19 @@ struct Residue {
   double slope;  ///< of g
   double bend;   ///< g''
 
+  /// The last step is so small that two terms of the Taylor series of the curve give the new position up to rounding.
+  static constexpr double max_step = 1e-5;
+
   [[gnu::always_inline]] bool converged(const CurveElement& curve, double allowed) const {
-    // The last step is so small that two terms of the Taylor series of the curve give the new position up to rounding.
-    constexpr double max_step = 1e-5;
+    return std::abs(step) <= max_step && slope > curve.min_slope &&
+           step * step * std::abs(bend) <= 2.0 * allowed * slope;
+  }
+
+  /// The same for a loop that vectorises; a single query is faster with branches, which a processor predicts.
+  [[gnu::always_inline]] bool converged_without_branches(const CurveElement& curve, double allowed) const {
     const bool small = std::abs(step) <= max_step, steep = slope > curve.min_slope;
     const bool accurate = step * step * std::abs(bend) <= 2.0 * allowed * slope;
-    return small & steep & accurate;  // without branches, for loops that vectorise
+    return small & steep & accurate;
   }
 };
 
