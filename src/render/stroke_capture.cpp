@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace calligraphy {
 namespace {
@@ -20,7 +21,6 @@ constexpr double about_as_far = 1.5;
 struct Misfit {
   double place, direction;
   double size() const { return std::hypot(place, direction); }
-  bool tolerable() const { return place <= 1.0 && direction <= 1.0; }
 };
 
 double misplacement(const StrokeStart& start, const Point& from, double em, const StrokeTolerances& tolerances) {
@@ -32,6 +32,11 @@ Misfit misfit(const StrokeStart& start, const Point& from, const Point& way, dou
   const double sine = start.direction.x() * way.y() - start.direction.y() * way.x();
   const double angle = std::abs(std::atan2(sine, start.direction.dot(way)));
   return {misplacement(start, from, em, tolerances), angle / tolerances.direction};
+}
+
+/// As misfit().direction <= 1, without the angle.
+bool is_tolerable(const StrokeStart& start, const Point& way) {
+  return start.direction.dot(way) >= start.min_cosine * way.norm();
 }
 
 /// A pen that was put down beside a stroke may approach it, by itself or led by guidance: only the rest of its way from
@@ -75,6 +80,8 @@ std::vector<StrokeStart> stroke_starts(const PlacedCharacter& placed, const Stro
     if (start.bends) way = longer;
     start.stretch = way.norm();
     start.direction = start.stretch > 0.0 ? Point(way / start.stretch) : elements.front().tangent(0.0);
+    const bool has_direction = start.direction != Point::Zero() && tolerances.direction < std::numbers::pi;
+    if (has_direction) start.min_cosine = std::cos(tolerances.direction);
     starts.push_back(start);
   }
   return starts;
@@ -106,20 +113,21 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
   const Point seen = anchor_ - misplaced();
   bool is_other = false, is_nearer = false;
   for (std::size_t later = due + 1; later < starts.size(); ++later) {
-    if (!(misplacement(starts[later], seen, em, tolerances) <= 1.0)) continue;  // as most: no need of angles
+    const StrokeStart& other = starts[later];
+    if (!(misplacement(other, seen, em, tolerances) <= 1.0) || !is_tolerable(other, shown)) continue;  // as most
     const Misfit expected = misfit(start, seen, shown, em, tolerances);
-    const Misfit other = misfit(starts[later], seen, shown, em, tolerances);
-    if (!other.tolerable() || other.size() >= expected.size() / tolerances.distinction) continue;
+    const Misfit found = misfit(other, seen, shown, em, tolerances);
+    if (found.size() >= expected.size() / tolerances.distinction) continue;
     is_other = true;
-    is_nearer = is_nearer || other.place <= about_as_far * expected.place;
+    is_nearer = is_nearer || found.place <= about_as_far * expected.place;
   }
   if (is_nearer && is_first_) return verdict_ = CaptureVerdict::another_stroke;
   const double moved = way.norm();
   if (!(moved >= start.stretch)) return verdict_;
   own_begin_ = tip - way;
-  const Misfit own = misfit(start, own_begin_, way, em, tolerances);
-  if (own.tolerable() && !is_other) return verdict_ = CaptureVerdict::begun;
-  verdict_ = own.place <= 1.0 ? CaptureVerdict::wrong_direction : CaptureVerdict::undecided;
+  const bool is_near = misplacement(start, own_begin_, em, tolerances) <= 1.0;
+  if (is_near && !is_other && is_tolerable(start, way)) return verdict_ = CaptureVerdict::begun;
+  verdict_ = is_near ? CaptureVerdict::wrong_direction : CaptureVerdict::undecided;
   is_first_ = false;
   anchor_ = moved > 0.0 ? Point(tip - way * (start.stretch / moved)) : tip;
   return verdict_;

@@ -16,6 +16,7 @@ struct StrokeStart {
   Point direction = Point::Zero();  ///< unit vector; zero for a stroke without length
   double stretch = 0.0;             ///< length over which the direction is judged [m]
   bool bends = false;               ///< judged over a longer stretch than usual, within which the stroke turns
+  double min_cosine = -2.0;         ///< of the angle to a way in a tolerated direction; -2: in any
 };
 
 /// The starts of all strokes of a character.

@@ -315,7 +315,8 @@ void StrokeSequencer::step_fit() noexcept {
     in_doubt_ = true;
     lifted_at_ = pen.time;
     doubted_down_ = attempt_.capture.down();
-    rest_ = {attempt_.path.points().back(), due_->geometry.at(due_->geometry.length()).tangent, 0.0, false};
+    rest_.point = attempt_.path.points().back();
+    rest_.direction = due_->geometry.at(due_->geometry.length()).tangent;
     due_->geometry.reload();
     if (writer_.state != InteractionState::separation) set_out(tip);
   } else {

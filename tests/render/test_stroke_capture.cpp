@@ -38,6 +38,7 @@ struct Pen {
 
   CaptureVerdict down(const Point& place) {
     tip = place;
+    for (StrokeStart& start : starts) start.min_cosine = std::cos(tolerances.direction);
     capture.put_down(tip, starts, due);
     return capture.update(tip, starts, due, em, tolerances);
   }
