@@ -4,6 +4,9 @@
 #include <cstddef>
 #include <limits>
 
+#include "certified_nearest_point.hpp"
+#include "length.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -11,9 +14,11 @@ namespace {
 constexpr double rounding = 1e-14;
 constexpr double relative_rounding = std::numeric_limits<double>::epsilon();
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 NearestPoint no_point() {
   NearestPoint nowhere;
-  nowhere.distance = std::numeric_limits<double>::infinity();
+  nowhere.distance = infinity;
   nowhere.status = NearestPointStatus::not_finite;
   return nowhere;
 }
@@ -21,42 +26,66 @@ NearestPoint no_point() {
 }  // namespace
 
 StrokeTracker::StrokeTracker(std::span<const StrokeElement> elements, double tolerance)
-    : elements_(elements.first(std::min(elements.size(), std::size_t{max_elements_per_stroke}))) {
-  options_.method = NearestPointMethod::tracked;
-  options_.tolerance = tolerance;
-  validate(options_);
+    : elements_(elements.first(std::min(elements.size(), std::size_t{max_elements_per_stroke}))),
+      tolerance_(tolerance),
+      clearance_(elements_.size() > 1 ? 0.0 : infinity) {
+  validate({.method = NearestPointMethod::tracked, .tolerance = tolerance});
 }
 
-NearestPoint StrokeTracker::find_on(int element, const Point& query) noexcept {
+[[gnu::always_inline]] inline NearestPoint StrokeTracker::find_on(int element, const Point& query) noexcept {
   const auto i = static_cast<std::size_t>(element);
-  LastQuery& last = last_queries_[i];
-  const NearestPoint closest = nearest_point(elements_[i], query, options_, {}, last.parameter + last.step);
-  if (closest.status == NearestPointStatus::not_finite) return closest;
-  last.clearance = closest.distance - rounding * (closest.distance + elements_[i].size());
-  last.query = query;
-  last.step = closest.parameter - last.parameter;
-  last.parameter = closest.parameter;
+  const CurveElement* const curve = elements_[i].curve();
+  Track& track = tracks_[i];
+  const NearestPoint closest =
+      curve ? tracked_nearest_point(*curve, query, tolerance_, {}, track.parameter + track.step)
+            : nearest_point(elements_[i], query);
+  if (closest.status != NearestPointStatus::not_finite) {
+    track.step = closest.parameter - track.parameter;
+    track.parameter = closest.parameter;
+  }
   return closest;
 }
 
+void StrokeTracker::keep(int element, const Point& query, double distance) noexcept {
+  const auto i = static_cast<std::size_t>(element);
+  tracks_[i].query = query;
+  tracks_[i].clearance = distance - rounding * (distance + elements_[i].size());
+}
+
+double StrokeTracker::clearance_of(int element, const Point& query) const noexcept {
+  const Track& track = tracks_[static_cast<std::size_t>(element)];
+  return track.clearance - length(query - track.query);
+}
+
 StrokePoint StrokeTracker::update(const Point& query) noexcept {
-  if (elements_.empty()) return {0, no_point()};
-  StrokePoint nearest{last_, find_on(last_, query)};
-  if (nearest.closest.status == NearestPointStatus::not_finite) return nearest;
-  for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
-    if (i == last_) continue;
-    // The distance to an element changes by at most the distance that the pen travels.
-    const LastQuery& last = last_queries_[static_cast<std::size_t>(i)];
-    const double lead = last.clearance - nearest.closest.distance;
-    if (lead > 0.0 && (query - last.query).squaredNorm() < lead * lead) continue;
+  StrokePoint nearest{last_, elements_.empty() ? no_point() : find_on(last_, query)};
+  // The distance to an element changes by at most the distance that the pen travels.
+  const double lead = clearance_ - nearest.closest.distance;
+  if (lead > 0.0 && (query - last_query_).squaredNorm() < lead * lead) return nearest;
+  if (nearest.closest.status != NearestPointStatus::not_finite) compare(query, nearest);
+  return nearest;
+}
+
+[[gnu::noinline]] void StrokeTracker::compare(const Point& query, StrokePoint& nearest) noexcept {
+  const auto count = static_cast<int>(elements_.size());
+  keep(last_, query, nearest.closest.distance);
+  double clearances[max_elements_per_stroke];
+  for (int i = 0; i < count; ++i) {
+    clearances[i] = clearance_of(i, query);
+    if (i == last_ || clearances[i] > nearest.closest.distance) continue;
     const NearestPoint closest = find_on(i, query);
+    if (closest.status == NearestPointStatus::not_finite) continue;
+    keep(i, query, closest.distance);
+    clearances[i] = clearance_of(i, query);
     const double gain = nearest.closest.distance - closest.distance;
     const double tie =
         rounding * elements_[static_cast<std::size_t>(i)].size() + 2.0 * relative_rounding * closest.distance;
     if (gain > tie || (gain >= -tie && i < nearest.element)) nearest = {i, closest};
   }
   last_ = nearest.element;
-  return nearest;
+  clearances[last_] = infinity;
+  clearance_ = *std::min_element(clearances, clearances + count);
+  last_query_ = query;
 }
 
 }  // namespace calligraphy

@@ -31,19 +31,26 @@ class StrokeTracker {
   StrokePoint update(const Point& query) noexcept;
 
  private:
-  /// The last query of an element.
-  struct LastQuery {
-    Point query = Point::Zero();
-    double clearance = 0.0;  ///< the distance, minus the possible rounding error
+  /// What is known of an element.
+  struct Track {
     double parameter = 0.5;
-    double step = 0.0;  ///< last change of the parameter
+    double step = 0.0;            ///< last change of the parameter
+    Point query = Point::Zero();  ///< that of the last comparison
+    double clearance = 0.0;       ///< its distance then, minus the possible rounding error
   };
 
   NearestPoint find_on(int element, const Point& query) noexcept;
+  /// Looks for a nearer point on the other elements.
+  void compare(const Point& query, StrokePoint& nearest) noexcept;
+  void keep(int element, const Point& query, double distance) noexcept;
+  /// No point of the element is nearer to the query.
+  double clearance_of(int element, const Point& query) const noexcept;
 
   std::span<const StrokeElement> elements_;
-  NearestPointOptions options_;
-  std::array<LastQuery, max_elements_per_stroke> last_queries_ = {};
+  double tolerance_;
+  double clearance_;                  ///< no other element than the last nearest is nearer to the query...
+  Point last_query_ = Point::Zero();  ///< ...of the last comparison
+  std::array<Track, max_elements_per_stroke> tracks_ = {};
   int last_ = 0;
 };
 
