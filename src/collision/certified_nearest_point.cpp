@@ -135,9 +135,10 @@ constinit std::array<CertifiedMethod, 3> certified_methods = {certified_baseline
 }();
 #endif
 
+/// From all signs of the whole curve.
 template <int Degree>
-NearestPoint tracked(const CurveElement& curve, const Point& query, double tolerance, const ParameterRange& range,
-                     double start) {
+[[gnu::always_inline]] inline NearestPoint tracked(const CurveElement& curve, const Point& query, double tolerance,
+                                                   const ParameterRange& range, double start) {
   const Pair relative = in_sizes(curve, query);
   const auto signs = slope_signs(curve.whole, relative);
   if (signs.certain) {
@@ -154,6 +155,32 @@ NearestPoint tracked(const CurveElement& curve, const Point& query, double toler
   return certified_nearest_point(curve, query, tolerance, range);
 }
 
+using TrackedMethod = NearestPoint (*)(const CurveElement&, const Point&, double, const ParameterRange&, double);
+
+template <int Degree>
+NearestPoint tracked_baseline(const CurveElement& curve, const Point& query, double tolerance,
+                              const ParameterRange& range, double start) {
+  return tracked<Degree>(curve, query, tolerance, range, start);
+}
+
+#if defined(__SSE2__)
+template <int Degree>
+[[gnu::target("avx2")]] NearestPoint tracked_avx2(const CurveElement& curve, const Point& query, double tolerance,
+                                                  const ParameterRange& range, double start) {
+  return tracked<Degree>(curve, query, tolerance, range, start);
+}
+#endif
+
+constinit std::array<TrackedMethod, 3> tracked_methods = {tracked_baseline<2>, tracked_baseline<3>,
+                                                          tracked_baseline<4>};
+
+#if defined(__SSE2__)
+[[maybe_unused]] const bool tracked_chosen = [] {
+  if (__builtin_cpu_supports("avx2")) tracked_methods = {tracked_avx2<2>, tracked_avx2<3>, tracked_avx2<4>};
+  return true;
+}();
+#endif
+
 }  // namespace
 
 NearestPoint certified_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
@@ -163,14 +190,7 @@ NearestPoint certified_nearest_point(const CurveElement& curve, const Point& que
 
 NearestPoint tracked_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                    const ParameterRange& range, double start) noexcept {
-  switch (curve.degree) {
-    case 2:
-      return tracked<2>(curve, query, tolerance, range, start);
-    case 3:
-      return tracked<3>(curve, query, tolerance, range, start);
-    default:
-      return tracked<4>(curve, query, tolerance, range, start);
-  }
+  return tracked_methods[static_cast<std::size_t>(curve.degree - 2)](curve, query, tolerance, range, start);
 }
 
 }  // namespace calligraphy
