@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "candidate.hpp"
+#include "follow.hpp"
 #include "minimum_search.hpp"
 #include "polish.hpp"
 #include "refused_query.hpp"
@@ -135,21 +136,33 @@ constinit std::array<CertifiedMethod, 3> certified_methods = {certified_baseline
 }();
 #endif
 
-/// From all signs of the whole curve.
+/// A second step, for a pen that has moved far.
 template <int Degree>
-[[gnu::always_inline]] inline NearestPoint tracked(const CurveElement& curve, const Point& query, double tolerance,
-                                                   const ParameterRange& range, double start) {
+[[gnu::noinline]] NearestPoint followed_again(const CurveElement& curve, const Point& query, double tolerance,
+                                              const ParameterRange& range, double start) {
   const Pair relative = in_sizes(curve, query);
-  const auto signs = slope_signs(curve.whole, relative);
+  Candidate found;
+  if (follow<Degree>(curve, relative, start, allowed_error<Degree>(tolerance), found)) {
+    return answer_within<Degree>(curve, found, relative, tolerance, range);
+  }
+  return certified_nearest_point(curve, query, tolerance, range);
+}
+
+/// From the signs of the whole curve.
+template <int Degree>
+[[gnu::always_inline]] inline NearestPoint tracked(const CurveElement& curve,
+                                                   SlopeSigns<CurveElement::whole_ordinates> signs, const Point& query,
+                                                   Pair relative, double tolerance, const ParameterRange& range,
+                                                   double start) {
   if (signs.certain) {
     const std::uint64_t changes = signs.changes();
     if (changes == 0) return end_of<Degree>(curve, signs.first_negative(), relative, range);
     if (signs.first_negative() && (changes & (changes - 1)) == 0) {
-      Residue residue;
-      const Candidate found = polish<Degree>(curve, SlopePolynomial<Degree>(curve, relative), relative, start, residue);
-      if (residue.converged(curve, allowed_error<Degree>(tolerance))) {
+      Candidate found;
+      if (follow<Degree>(curve, relative, start, allowed_error<Degree>(tolerance), found)) {
         return answer_within<Degree>(curve, found, relative, tolerance, range);
       }
+      return followed_again<Degree>(curve, query, tolerance, range, found.t);
     }
   }
   return certified_nearest_point(curve, query, tolerance, range);
@@ -160,14 +173,16 @@ using TrackedMethod = NearestPoint (*)(const CurveElement&, const Point&, double
 template <int Degree>
 NearestPoint tracked_baseline(const CurveElement& curve, const Point& query, double tolerance,
                               const ParameterRange& range, double start) {
-  return tracked<Degree>(curve, query, tolerance, range, start);
+  const Pair relative = in_sizes(curve, query);
+  return tracked<Degree>(curve, slope_signs(curve.whole, relative), query, relative, tolerance, range, start);
 }
 
 #if defined(__SSE2__)
 template <int Degree>
 [[gnu::target("avx2")]] NearestPoint tracked_avx2(const CurveElement& curve, const Point& query, double tolerance,
                                                   const ParameterRange& range, double start) {
-  return tracked<Degree>(curve, query, tolerance, range, start);
+  const Pair relative = in_sizes(curve, query);
+  return tracked<Degree>(curve, slope_signs_avx2(curve.whole, relative), query, relative, tolerance, range, start);
 }
 #endif
 

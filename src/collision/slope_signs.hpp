@@ -137,6 +137,22 @@ template <std::size_t Count>
   return signs;
 }
 
+/// Those of the whole curve fit in one register.
+[[gnu::target("avx2"), gnu::always_inline]] inline SlopeSigns<CurveElement::whole_ordinates> slope_signs_avx2(
+    const SlopeOrdinates<CurveElement::whole_ordinates>& ordinates, Pair query) {
+  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
+  const __m256 values =
+      _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(_mm256_set1_ps(x), _mm256_loadu_ps(ordinates.x.data())),
+                                  _mm256_mul_ps(_mm256_set1_ps(y), _mm256_loadu_ps(ordinates.y.data()))),
+                    _mm256_loadu_ps(ordinates.constant.data()));
+  const __m256 magnitudes = _mm256_and_ps(values, _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff)));
+  const __m256 noise = _mm256_set1_ps(slope_noise(ordinates, x, y));
+  SlopeSigns<CurveElement::whole_ordinates> signs;
+  signs.negative = static_cast<unsigned>(_mm256_movemask_ps(values));
+  signs.certain = _mm256_movemask_ps(_mm256_cmp_ps(magnitudes, noise, _CMP_GT_OQ)) == 0xff;
+  return signs;
+}
+
 #endif
 
 template <std::size_t Count>
