@@ -8,6 +8,7 @@
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/collision/constraint_space.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
+#include <calligraphy/collision/nearest_stroke_point.hpp>
 #include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
 #include <calligraphy/devices/capabilities.hpp>

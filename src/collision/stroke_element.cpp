@@ -64,4 +64,10 @@ std::vector<StrokeElement> place_elements(const Stroke& stroke, const Placement&
   return elements;
 }
 
+std::vector<std::vector<StrokeElement>> place_elements(const PlacedCharacter& placed) {
+  std::vector<std::vector<StrokeElement>> elements;
+  for (const Stroke& stroke : strokes(placed.character)) elements.push_back(place_elements(stroke, placed.placement));
+  return elements;
+}
+
 }  // namespace calligraphy

@@ -6,22 +6,12 @@
 
 #include "certified_nearest_point.hpp"
 #include "length.hpp"
+#include "several_elements.hpp"
 
 namespace calligraphy {
 namespace {
 
-/// Rounding error of a distance, relative to it and to the size of the element.
-constexpr double rounding = 1e-14;
-constexpr double relative_rounding = std::numeric_limits<double>::epsilon();
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-NearestPoint no_point() {
-  NearestPoint nowhere;
-  nowhere.distance = infinity;
-  nowhere.status = NearestPointStatus::not_finite;
-  return nowhere;
-}
 
 }  // namespace
 
@@ -49,7 +39,7 @@ StrokeTracker::StrokeTracker(std::span<const StrokeElement> elements, double tol
 void StrokeTracker::keep(int element, const Point& query, double distance) noexcept {
   const auto i = static_cast<std::size_t>(element);
   tracks_[i].query = query;
-  tracks_[i].clearance = distance - rounding * (distance + elements_[i].size());
+  tracks_[i].clearance = distance - distance_rounding * (distance + elements_[i].size());
 }
 
 double StrokeTracker::clearance_of(int element, const Point& query) const noexcept {
@@ -78,8 +68,7 @@ StrokePoint StrokeTracker::update(const Point& query) noexcept {
     keep(i, query, closest.distance);
     clearances[i] = clearance_of(i, query);
     const double gain = nearest.closest.distance - closest.distance;
-    const double tie =
-        rounding * elements_[static_cast<std::size_t>(i)].size() + 2.0 * relative_rounding * closest.distance;
+    const double tie = distance_tie(elements_[static_cast<std::size_t>(i)], closest.distance);
     if (gain > tie || (gain >= -tie && i < nearest.element)) nearest = {i, closest};
   }
   last_ = nearest.element;

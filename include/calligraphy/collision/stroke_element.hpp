@@ -61,4 +61,7 @@ StrokeElement prepare_element(std::span<const Point> control_points) noexcept;
 /// The elements of a stroke as placed, in writing order, prepared for queries [m].
 std::vector<StrokeElement> place_elements(const Stroke& stroke, const Placement& placement);
 
+/// The elements of each stroke of a character, in writing order [m].
+std::vector<std::vector<StrokeElement>> place_elements(const PlacedCharacter& placed);
+
 }  // namespace calligraphy

@@ -5,15 +5,9 @@
 #include <span>
 #include <vector>
 
-#include <calligraphy/collision/nearest_point.hpp>
+#include <calligraphy/collision/nearest_stroke_point.hpp>
 
 namespace calligraphy {
-
-/// A point on a stroke.
-struct StrokePoint {
-  int element = 0;       ///< index of its element
-  NearestPoint closest;  ///< on that element
-};
 
 /// Finds the certified nearest point of the whole stroke for each position of a pen, fast as long as the pen moves
 /// little: the search on the last nearest element starts from its last parameter, and the other elements are skipped
