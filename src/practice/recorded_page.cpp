@@ -1,6 +1,7 @@
 #include "recorded_page.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/collision/nearest_stroke_point.hpp>
 
 #include "base/require.hpp"
 #include "pen_down.hpp"
@@ -38,14 +40,13 @@ void require_indices(const PracticePage& page, const RecordedSample& sample, std
   }
 }
 
-double distance_from(const PracticePage& page, const StrokeIndex& finished, const Point& tip) {
+/// Distance of the nearer of the two tips from the stroke [em].
+double distance_from(const PracticePage& page, const StrokeIndex& finished, const std::array<Point, 2>& tips) {
   const auto [character, stroke] = finished;
   const PlacedCharacter& placed = page.characters[character];
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const StrokeElement& element : place_elements(strokes(placed.character)[stroke], placed.placement)) {
-    nearest = std::min(nearest, nearest_point(element, tip).distance);
-  }
-  return nearest / placed.placement.em;
+  std::array<StrokePoint, 2> nearest;
+  nearest_points(place_elements(strokes(placed.character)[stroke], placed.placement), tips, nearest);
+  return std::min(nearest[0].closest.distance, nearest[1].closest.distance) / placed.placement.em;
 }
 
 }  // namespace
@@ -77,8 +78,7 @@ void require_same_page(const PracticePage& page, const Recording& recording) {
       time = sample.time;
     }
     if (has_event(sample.events, TickEvent::stroke_finished) && begin) {
-      const StrokeIndex finished = finished_stroke(page, sample);
-      distances.push_back(std::min(distance_from(page, finished, *begin), distance_from(page, finished, *end)));
+      distances.push_back(distance_from(page, finished_stroke(page, sample), {*begin, *end}));
     }
     if (sample.state != InteractionState::writing || !is_usable(sample)) continue;
     end = sample.pen_tip.head<2>();

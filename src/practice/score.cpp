@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include <calligraphy/collision/nearest_stroke_point.hpp>
 #include <calligraphy/judge/dtw_distance.hpp>
 #include <calligraphy/judge/pen_path.hpp>
 
@@ -69,9 +70,9 @@ struct Template {
         length(path_length(fine)),
         line(points_along(fine, length, line_points)) {}
 
-  double distance_from(const Point& tip) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const StrokeElement& element : elements) nearest = std::min(nearest, nearest_point(element, tip).distance);
+  std::vector<StrokePoint> nearest_to(std::span<const Point> tips) const {
+    std::vector<StrokePoint> nearest(tips.size());
+    nearest_points(elements, tips, nearest);
     return nearest;
   }
 };
@@ -203,24 +204,18 @@ class CharacterScorer {
 
   /// Adds the points that lie along a part of the line. Returns whether there are any.
   bool add_points(const std::vector<Point>& points, const Alignment& whole, const LinePart& part, Written& written) {
-    const std::size_t before = written.points.size();
-    double last_error = 0.0;
-    bool continues = false;
+    std::vector<std::size_t> along;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const bool lies_along = part.from <= whole.places[i] && whole.places[i] <= part.to;
-      if (lies_along) {
-        const double error = templates_[part.stroke].distance_from(points[i]);
-        if (continues) {
-          written.error.add(last_error, error, (points[i] - points[i - 1]).norm());
-        } else {
-          written.error.add(error, error, 0.0);
-        }
-        last_error = error;
-        written.points.push_back(points[i]);
-      }
-      continues = lies_along;
+      if (part.from <= whole.places[i] && whole.places[i] <= part.to) along.push_back(i);
     }
-    return written.points.size() > before;
+    for (const std::size_t i : along) written.points.push_back(points[i]);
+    const auto nearest = templates_[part.stroke].nearest_to(std::span(written.points).last(along.size()));
+    for (std::size_t k = 0; k < along.size(); ++k) {
+      const bool continues = k > 0 && along[k] == along[k - 1] + 1;
+      const double step = continues ? (points[along[k]] - points[along[k - 1]]).norm() : 0.0;
+      written.error.add(nearest[continues ? k - 1 : k].closest.distance, nearest[k].closest.distance, step);
+    }
+    return !along.empty();
   }
 
   void measure(std::size_t stroke) {
