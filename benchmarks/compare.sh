@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 if [[ $# -eq 0 ]]; then
-  echo "usage: $0 REVISION [--rounds N] [--cold-rounds N] [--options NAME,NAME] [--noise UM] [--step UM]" >&2
+  echo "usage: $0 REVISION [--rounds N] [--lines N] [--cold-rounds N] [--options NAME,NAME] [--noise UM] [--step UM]" >&2
   exit 2
 fi
 

@@ -23,6 +23,7 @@ parser.add_argument("--options", default="default,everything", help="those whose
 parser.add_argument("--noise", type=float, default=0.0, help="added to the pens' positions [um]")
 parser.add_argument("--step", type=float, default=0.0, help="of a coarser encoder [um]")
 parser.add_argument("--no-instructions", action="store_true")
+parser.add_argument("--lines", type=int, default=0, help="ticks in which cache lines are counted: 3500 take minutes")
 parser.add_argument("--stages", type=int, default=14, help="number of files to list")
 arguments = parser.parse_args()
 programs = [arguments.before, arguments.after]
@@ -117,6 +118,31 @@ def instructions(program, options):
     return costs, 1.0 - searched / asked
 
 
+def touched_lines(program, options):
+    """Cache lines of 64 bytes that a tick touches, of code and of data: the means in the air, of writing, and of what
+    begins it."""
+    symbols = subprocess.run(["nm", program], capture_output=True, text=True, check=True).stdout
+    begins, ends = (int(re.search(rf"(\w+) T {name}$", symbols, re.M)[1], 16) for name in ("tick_begins", "tick_ends"))
+    command = ["valgrind", "--tool=lackey", "--trace-mem=yes", "--log-fd=2", program, "trace", pens, options,
+               str(arguments.lines)]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    kinds = {"0 0": "in the air", "3 0": "writing", "2 1": "contact", "3 4": "the first of a stroke"}
+    means, inside = {kind: [] for kind in kinds.values()}, False
+    begins, ends = (f"I  {address:08x}," for address in (begins, ends))
+    for line in process.stderr:
+        if line.startswith(begins):
+            code, data, inside = set(), set(), True
+        elif line.startswith(ends):
+            inside = False
+        elif inside and line[1:2] in " LSM":
+            address, size = line[3:].split(",")
+            first = int(address, 16)
+            (code if line[0] == "I" else data).update(range(first // 64, (first + int(size) - 1) // 64 + 1))
+        elif line.startswith("tick ") and line[5:].strip() in kinds:
+            means[kinds[line[5:].strip()]].append((len(code), len(data)))
+    return {kind: [statistics.mean(side) for side in zip(*counts)] for kind, counts in means.items() if counts}
+
+
 for options in measured:
     servers[1].ask("strokes", options)  # stops here if there are no such options
 
@@ -166,3 +192,9 @@ else:
         rows.append(["nearest points on curves without a general search [%]", f"{100 * tracked_before:.1f}",
                      f"{100 * tracked_after:.1f}", ""])
         table([f"instructions per tick, {options}, by file", "before", "after", "ratio"], rows)
+if arguments.lines and shutil.which("valgrind"):
+    for options in measured:
+        before, after = (touched_lines(program, options) for program in programs)
+        rows = [[kind, *(f"{code:.0f} + {data:.0f}" for code, data in (before[kind], after[kind])),
+                 f"{sum(after[kind]) / sum(before[kind]):.3f}"] for kind in before if kind in after]
+        table([f"cache lines of a tick, {options}: of code + of data", "before", "after", "ratio"], rows)

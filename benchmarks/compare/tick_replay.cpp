@@ -3,6 +3,7 @@
 //
 // tick_replay record FILE [NOISE STEP]   writes the pens, with more noise and encoder steps [um]
 // tick_replay count FILE OPTIONS         replays them once, for callgrind, which counts within `measured`
+// tick_replay trace FILE OPTIONS TICKS   replays so many, for lackey, between `tick_begins` and `tick_ends`
 // tick_replay serve FILE                 answers commands on standard input, a line each: see serve()
 #include <algorithm>
 #include <chrono>
@@ -316,6 +317,23 @@ void serve(const std::string& file) {
 /// The name at which callgrind toggles collection.
 extern "C" __attribute__((noinline)) void measured(Replay& replay) { replay.run(update); }
 
+/// Between these, lackey's addresses are those of a tick.
+extern "C" __attribute__((noinline)) void tick_begins() { asm volatile(""); }
+extern "C" __attribute__((noinline)) void tick_ends() { asm volatile(""); }
+
+/// Prints a line with the state and the events after each tick, and leaves once there were so many.
+[[noreturn]] void trace(Replay& replay, std::size_t ticks) {
+  replay.run([&](HapticRenderer& renderer, const DeviceState& state) -> const HapticTick& {
+    if (ticks-- == 0) std::exit(0);
+    tick_begins();
+    const HapticTick& tick = renderer.update(state);
+    tick_ends();
+    std::fprintf(stderr, "tick %d %d\n", static_cast<int>(tick.state), static_cast<int>(tick.events));
+    return tick;
+  });
+  std::exit(0);
+}
+
 int main(int argc, char** argv) try {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::string command = arguments.empty() ? "" : arguments[0];
@@ -327,10 +345,14 @@ int main(int argc, char** argv) try {
     Replay replay(arguments[1], arguments[2]);
     measured(replay);
     std::printf("%zu\n", replay.ticks());
+  } else if (command == "trace" && arguments.size() == 4) {
+    Replay replay(arguments[1], arguments[2]);
+    trace(replay, std::stoul(arguments[3]));
   } else if (command == "serve" && arguments.size() == 2) {
     serve(arguments[1]);
   } else {
-    throw std::runtime_error("usage: tick_replay record FILE [NOISE STEP] | count FILE OPTIONS | serve FILE");
+    throw std::runtime_error(
+        "usage: tick_replay record FILE [NOISE STEP] | count FILE OPTIONS | trace FILE OPTIONS TICKS | serve FILE");
   }
   return 0;
 } catch (const std::exception& error) {
