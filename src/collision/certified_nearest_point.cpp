@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -136,7 +137,7 @@ constinit std::array<CertifiedMethod, 3> certified_methods = {certified_baseline
 }();
 #endif
 
-/// A second step, for a pen that has moved far.
+/// A second step, for a pen that moves fast.
 template <int Degree>
 [[gnu::noinline]] NearestPoint followed_again(const CurveElement& curve, const Point& query, double tolerance,
                                               const ParameterRange& range, double start) {
@@ -162,7 +163,9 @@ template <int Degree>
       if (follow<Degree>(curve, relative, start, allowed_error<Degree>(tolerance), found)) {
         return answer_within<Degree>(curve, found, relative, tolerance, range);
       }
-      return followed_again<Degree>(curve, query, tolerance, range, found.t);
+      if (std::abs(found.t - start) <= furthest_step) {
+        return followed_again<Degree>(curve, query, tolerance, range, found.t);
+      }
     }
   }
   return certified_nearest_point(curve, query, tolerance, range);

@@ -12,6 +12,9 @@ namespace calligraphy {
 
 [[gnu::always_inline]] inline double sum(Pair pair) { return pair[0] + pair[1]; }
 
+/// A larger step loses digits, and seldom leads near the zero.
+inline constexpr double furthest_step = 0.1;
+
 /// A step from t towards a zero of g, and whether that has been reached well within `allowed`, the permitted error of
 /// the parameter. The caller knows that there is only one zero.
 template <int Degree>
@@ -49,11 +52,10 @@ template <int Degree>
 
   // What is left of g decides: Newton's method would take a step of about left / slope more, and certainly converges
   // if the slope changes little on the way (Kantorovich's theorem).
-  constexpr double max_step = 0.1;  // larger ones lose digits
-  constexpr double share = 0.125;   // of the permitted error: costs little, since most steps leave far less
+  constexpr double share = 0.125;  // of the permitted error: costs little, since most steps leave far less
   const double left = dot(found.offset, c[1]);
   const double new_slope = sum(c[1] * c[1] + (found.offset + found.offset) * c[2]);
-  return std::abs(step) <= max_step && new_slope > curve.min_slope &&
+  return std::abs(step) <= furthest_step && new_slope > curve.min_slope &&
          std::abs(left) <= share * allowed * new_slope &&
          16.0 * std::abs(left * half_bend) <= new_slope * new_slope;
 }
