@@ -65,10 +65,10 @@ class ForceOutput {
   double paper_onset_;  ///< depth over which the damper of the paper sets in [m]
   ForceLimiter limiter_;
   bool observes_energy_;
-  EnergyBudget energy_;
   double time_ = 0.0;      ///< of the previous sample [s]
   ThermalBudget thermal_;  ///< peak 0: disabled
   SentForce sent_;
+  EnergyBudget energy_;  ///< the largest, last: see apart()
 };
 
 }  // namespace calligraphy

@@ -48,6 +48,7 @@ class Guidance {
   Point way_to_start(const WriterState& writer) const noexcept;
   Point faded(const PenState& pen, const WriterState& writer, const Point& sent) noexcept;
 
+  GuidanceForce force_;
   EffectiveOptions effective_;
   double period_;     ///< [s]
   double fade_step_;  ///< per tick
@@ -63,7 +64,6 @@ class Guidance {
   double released_normal_ = 0.0;  ///< the law's normal force at that time [N]
   double normal_left_ = 0.0;      ///< share of it that is left, before the smooth step: 1 to 0
   double normal_step_ = 0.0;      ///< per tick
-  GuidanceForce force_;
 };
 
 }  // namespace calligraphy

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/apart.hpp"
 #include "effective_options.hpp"
 #include "force_output.hpp"
 #include "guidance.hpp"
@@ -13,6 +14,34 @@ namespace calligraphy {
 namespace {
 
 const HapticTick nothing;
+
+void report(const PenState& pen, const WriterState& writer, const GuidanceForce& guidance, const PaperForce& paper,
+            const SentForce& sent, HapticTick& tick) noexcept {
+  tick.time = pen.time;
+  tick.status = pen.status;
+  tick.state = writer.state;
+  tick.events = writer.events;
+  tick.character = writer.character;
+  tick.stroke = writer.stroke;
+  tick.device_point = pen.device_point;
+  tick.pen_tip = pen.tip;
+  tick.penetration = pen.penetration;
+  if (writer.state != InteractionState::separation || writer.events != TickEvent::none) tick.contact = writer.contact;
+  tick.covered = writer.covered;
+  tick.hint = hint_in(writer.phase);
+  if (sent.is_warm && tick.hint == WritingHint::none) tick.hint = WritingHint::warm_motors;
+  tick.to_start = writer.to_start;
+  tick.attraction = guidance.attraction;
+  tick.wrong_way = guidance.wrong_way;
+  tick.friction = paper.friction;
+  tick.normal = paper.normal + guidance.normal;
+  tick.viscous = sent.viscous;
+  tick.assistance = guidance.assistance;
+  tick.energy_given = sent.energy_given;
+  tick.heat = sent.heat;
+  tick.page_force = sent.page;
+  tick.force = sent.device;
+}
 
 }  // namespace
 
@@ -28,9 +57,6 @@ struct HapticRenderer::Stages {
         paper(effective.options),
         output(effective.options, capabilities, mapping, effective.law_stiffness,
                effective.has_own_law) {}
-
-  void report(const PenState& pen, const WriterState& writer, const GuidanceForce& guidance_force,
-              const PaperForce& paper_force, const SentForce& sent) noexcept;
 
   MotionMapping mapping;
   EffectiveOptions effective;
@@ -63,14 +89,16 @@ void HapticRenderer::restart() noexcept {
 /// of small functions took a fifth of a tick.
 [[gnu::flatten]] const HapticTick& HapticRenderer::update(const DeviceState& sample) noexcept {
   if (!stages_) return nothing;
-  auto& [mapping, effective, guidance, sensor, sequencer, paper, output, tick] = *stages_;
-  PenState& pen = sensor.update(sample, output.last().device);
-  const WriterState& writer = sequencer.update(pen);
-  const GuidanceForce& guidance_force = guidance.update(pen, writer, output.last().guidance);
-  const PaperForce& paper_force = paper.update(pen, writer, output.last().page.z());
-  const SentForce& sent = output.update(pen, guidance_force, paper_force);
-  stages_->report(pen, writer, guidance_force, paper_force, sent);
-  return tick;
+  Stages& stages = *stages_;
+  ForceOutput& output = apart(stages.output);
+  const SentForce& sent = output.last();
+  PenState& pen = apart(stages.sensor).update(sample, sent.device);
+  const WriterState& writer = apart(stages.sequencer).update(pen);
+  const GuidanceForce& guidance = apart(stages.guidance).update(pen, writer, sent.guidance);
+  const PaperForce& paper = apart(stages.paper).update(pen, writer, sent.page.z());
+  output.update(pen, guidance, paper);
+  report(pen, writer, guidance, paper, sent, apart(stages.tick));
+  return stages.tick;
 }
 
 bool HapticRenderer::skip_stroke() noexcept { return stages_->sequencer.skip(); }
@@ -83,34 +111,6 @@ const MotionMapping& HapticRenderer::mapping() const noexcept { return stages_->
 const std::vector<PlacedCharacter>& HapticRenderer::page() const noexcept { return stages_->sequencer.page(); }
 double HapticRenderer::max_force_step() const noexcept {
   return stages_->output.max_step() * stages_->mapping.scale;
-}
-
-void HapticRenderer::Stages::report(const PenState& pen, const WriterState& writer, const GuidanceForce& guidance_force,
-                                    const PaperForce& paper_force, const SentForce& sent) noexcept {
-  tick.time = pen.time;
-  tick.status = pen.status;
-  tick.state = writer.state;
-  tick.events = writer.events;
-  tick.character = writer.character;
-  tick.stroke = writer.stroke;
-  tick.device_point = pen.device_point;
-  tick.pen_tip = pen.tip;
-  tick.penetration = pen.penetration;
-  if (writer.state != InteractionState::separation || writer.events != TickEvent::none) tick.contact = writer.contact;
-  tick.covered = writer.covered;
-  tick.hint = hint_in(writer.phase);
-  if (sent.is_warm && tick.hint == WritingHint::none) tick.hint = WritingHint::warm_motors;
-  tick.to_start = writer.to_start;
-  tick.attraction = guidance_force.attraction;
-  tick.wrong_way = guidance_force.wrong_way;
-  tick.friction = paper_force.friction;
-  tick.normal = paper_force.normal + guidance_force.normal;
-  tick.viscous = sent.viscous;
-  tick.assistance = guidance_force.assistance;
-  tick.energy_given = sent.energy_given;
-  tick.heat = sent.heat;
-  tick.page_force = sent.page;
-  tick.force = sent.device;
 }
 
 }  // namespace calligraphy

@@ -102,9 +102,6 @@ class StrokeSequencer {
   PreparedCharacter* character_ = nullptr;  ///< the one of `page_` to be written; null once all are
   PreparedStroke* due_ = nullptr;           ///< its stroke that is due; the last once all are written
   Point hand_ = Point::Zero();              ///< where the hand means to be, in the writing state [m, page]
-  Attempt attempt_;                         ///< to write the due stroke
-  Attempt next_;                            ///< the same pen-down, were the next one meant
-  ShapeFit fit_;
   int fit_steps_;                           ///< a tick: one at 1 kHz, more at lower rates
   Look look_ = Look::none;
   bool passed_end_ = false;                 ///< the pen was at the end, having written enough
@@ -116,6 +113,10 @@ class StrokeSequencer {
   bool inside_box_ = false;
   bool seeks_rest_ = false;                 ///< the pen has just been put down, and may rest on the stroke
   WriterState writer_;
+  // The largest, last: see apart().
+  Attempt attempt_;  ///< to write the due stroke
+  Attempt next_;     ///< the same pen-down, were the next one meant
+  ShapeFit fit_;
 };
 
 }  // namespace calligraphy
