@@ -1,5 +1,5 @@
 // The methods of this library.
-#include <calligraphy/collision/nearest_point.hpp>
+#include <calligraphy/collision/nearest_stroke_point.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
 
 #include "method.hpp"
@@ -38,7 +38,7 @@ struct TrackedKernel : LibraryKernel {
   }
 };
 
-/// All queries to an element in one call.
+/// All queries to an element, or to a stroke, in one call.
 class Batched : public MethodOf<LibraryKernel> {
  public:
   using MethodOf::MethodOf;
@@ -47,9 +47,16 @@ class Batched : public MethodOf<LibraryKernel> {
     calligraphy::nearest_points(elements_[element], queries, feet_, kernel_.options);
     for (std::size_t i = 0; i < queries.size(); ++i) answers[i] = answer_of(feet_[i]);
   }
+  void follow(std::size_t first, std::size_t last, std::span<const Point> path, std::span<Answer> answers) override {
+    feet_on_stroke_.resize(path.size());
+    calligraphy::nearest_points(std::span(elements_).subspan(first, last - first), path, feet_on_stroke_,
+                                kernel_.options);
+    for (std::size_t i = 0; i < path.size(); ++i) answers[i] = answer_of(feet_on_stroke_[i].closest);
+  }
 
  private:
   std::vector<NearestPoint> feet_;
+  std::vector<calligraphy::StrokePoint> feet_on_stroke_;
 };
 
 /// Over the elements of a stroke.
@@ -95,6 +102,7 @@ std::vector<std::unique_ptr<Method>> library_stroke_methods() {
   std::vector<std::unique_ptr<Method>> methods;
   methods.push_back(std::make_unique<Tracker>("StrokeTracker", LibraryKernel{}));
   methods.push_back(method_of("exact", LibraryKernel{}));
+  methods.push_back(std::make_unique<Batched>("exact, batched", LibraryKernel{}));
   for (auto& method : approximate_methods()) methods.push_back(std::move(method));
   return methods;
 }
