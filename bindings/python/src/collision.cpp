@@ -1,6 +1,6 @@
 // Nearest points in batches, and the rules of the active stroke.
 #include <calligraphy/collision/active_stroke.hpp>
-#include <calligraphy/collision/nearest_point.hpp>
+#include <calligraphy/collision/nearest_stroke_point.hpp>
 
 #include "components.hpp"
 
@@ -25,44 +25,107 @@ struct NearestPoints {
   py::array_t<std::uint8_t> status;
 };
 
-NearestPoints ask(const std::variant<const StrokeElement*, ArrayLike>& control_points, const ArrayLike& queries,
-                  const Given<NearestPointMethod>& method, double tolerance, int samples, int refinements) {
+/// Allocates the results, then writes them without the GIL.
+class NearestPointWriter {
+ public:
+  explicit NearestPointWriter(py::ssize_t count)
+      : NearestPointWriter(count, Doubles(6 * count), py::array_t<std::uint8_t>(count)) {}
+
+  void write(py::ssize_t at, const NearestPoint& found) {
+    parameter_[at] = found.parameter;
+    distance_[at] = found.distance;
+    point_.col(at) = found.point;
+    tangent_.col(at) = found.tangent;
+    status_[at] = static_cast<std::uint8_t>(found.status);
+  }
+  const NearestPoints& results() const { return results_; }
+
+ private:
+  NearestPointWriter(py::ssize_t count, Doubles all, py::array_t<std::uint8_t> status)
+      : parameter_(all.mutable_data(), count),
+        distance_(parameter_.data() + 3 * count, count),
+        point_(parameter_.data() + count, 2, count),
+        tangent_(parameter_.data() + 4 * count, 2, count),
+        status_(status.mutable_data()),
+        results_{Doubles(std::vector{count}, parameter_.data(), all),
+                 Doubles(std::vector{count, py::ssize_t{2}}, point_.data(), all),
+                 Doubles(std::vector{count}, distance_.data(), all),
+                 Doubles(std::vector{count, py::ssize_t{2}}, tangent_.data(), all), std::move(status)} {}
+
+  Eigen::Map<Eigen::VectorXd> parameter_, distance_;
+  Eigen::Map<Eigen::Matrix2Xd> point_, tangent_;
+  std::uint8_t* status_;
+  NearestPoints results_;
+};
+
+/// Calls `find` with blocks of queries and results that stay in the processor's cache, and `store` with the index of
+/// each query and its result; without the GIL if there are many.
+template <class Result, class Find, class Store>
+void find_all(std::span<const Point> queries, const Find& find, const Store& store) {
+  std::optional<py::gil_scoped_release> release;
+  if (queries.size() >= few) release.emplace();
+  Interrupt interrupt;
+  std::array<Result, 256> block;
+  for (std::size_t done = 0; done < queries.size(); done += block.size()) {
+    if (release) interrupt.check();
+    const std::size_t size = std::min(block.size(), queries.size() - done);
+    find(queries.subspan(done, size), std::span(block).first(size));
+    for (std::size_t i = 0; i < size; ++i) store(static_cast<py::ssize_t>(done + i), block[i]);
+  }
+}
+
+NearestPointOptions options_of(const Given<NearestPointMethod>& method, double tolerance, int samples,
+                               int refinements) {
   const NearestPointOptions options = {converted(method, "method"), tolerance, samples, refinements};
   validate(options);
+  return options;
+}
+
+std::span<const Point> rows_of(const Doubles& array) {
+  return {reinterpret_cast<const Point*>(array.data()), static_cast<std::size_t>(array.shape(0))};
+}
+
+NearestPoints ask(const std::variant<const StrokeElement*, ArrayLike>& control_points, const ArrayLike& queries,
+                  const Given<NearestPointMethod>& method, double tolerance, int samples, int refinements) {
+  const NearestPointOptions options = options_of(method, tolerance, samples, refinements);
   const auto* const prepared = std::get_if<const StrokeElement*>(&control_points);
   const StrokeElement element = prepared != nullptr ? **prepared : element_of(std::get<ArrayLike>(control_points));
   const Doubles array = doubles(queries, "queries", 2);
-  const py::ssize_t count = array.shape(0);
-  const std::span asked(reinterpret_cast<const Point*>(array.data()), static_cast<std::size_t>(count));
-  const Doubles all(6 * count);
-  const auto part = [&](std::vector<py::ssize_t> shape, py::ssize_t first) {
-    return Doubles(std::move(shape), all.data() + first * count, all);
-  };
-  NearestPoints result = {part({count}, 0), part({count, 2}, 1), part({count}, 3), part({count, 2}, 4),
-                          py::array_t<std::uint8_t>(count)};
-  Eigen::Map<Eigen::VectorXd> parameter(result.parameter.mutable_data(), count);
-  Eigen::Map<Eigen::VectorXd> distance(result.distance.mutable_data(), count);
-  Eigen::Map<Eigen::Matrix2Xd> point(result.point.mutable_data(), 2, count);
-  Eigen::Map<Eigen::Matrix2Xd> tangent(result.tangent.mutable_data(), 2, count);
-  std::uint8_t* const status = result.status.mutable_data();
-  std::optional<py::gil_scoped_release> release;
-  if (count >= few) release.emplace();
-  Interrupt interrupt;
-  std::array<NearestPoint, 256> block;  // stays in the processor's cache
-  for (std::size_t done = 0; done < asked.size(); done += block.size()) {
-    if (release) interrupt.check();
-    const std::size_t size = std::min(block.size(), asked.size() - done);
-    nearest_points(element, asked.subspan(done, size), std::span(block).first(size), options);
-    for (std::size_t i = 0; i < size; ++i) {
-      const auto at = static_cast<py::ssize_t>(done + i);
-      parameter[at] = block[i].parameter;
-      distance[at] = block[i].distance;
-      point.col(at) = block[i].point;
-      tangent.col(at) = block[i].tangent;
-      status[at] = static_cast<std::uint8_t>(block[i].status);
-    }
+  NearestPointWriter nearest(array.shape(0));
+  find_all<NearestPoint>(
+      rows_of(array), [&](auto asked, auto found) { nearest_points(element, asked, found, options); },
+      [&](py::ssize_t i, const NearestPoint& found) { nearest.write(i, found); });
+  return nearest.results();
+}
+
+/// As CharacterPoint.
+struct CharacterPoints {
+  py::array_t<int> stroke, element;
+  NearestPoints closest;
+};
+
+CharacterPoints ask_strokes(const std::variant<Character, Stroke>& character, const Placement& placement,
+                            const ArrayLike& queries, const Given<NearestPointMethod>& method, double tolerance,
+                            int samples, int refinements) {
+  const NearestPointOptions options = options_of(method, tolerance, samples, refinements);
+  std::vector<std::vector<StrokeElement>> elements;
+  if (const auto* const whole = std::get_if<Character>(&character)) {
+    elements = place_elements({*whole, placement});
+  } else {
+    elements.push_back(place_elements(std::get<Stroke>(character), placement));
   }
-  return result;
+  const Doubles array = doubles(queries, "queries", 2);
+  NearestPointWriter nearest(array.shape(0));
+  py::array_t<int> strokes(array.shape(0)), indices(array.shape(0));
+  int *const stroke = strokes.mutable_data(), *const index = indices.mutable_data();
+  find_all<CharacterPoint>(
+      rows_of(array), [&](auto asked, auto found) { nearest_points(elements, asked, found, options); },
+      [&](py::ssize_t i, const CharacterPoint& found) {
+        stroke[i] = found.stroke;
+        index[i] = found.element;
+        nearest.write(i, found.closest);
+      });
+  return {strokes, indices, nearest.results()};
 }
 
 /// A function of the parameter, for one value or many.
@@ -109,6 +172,13 @@ void add_collision(py::module_& module) {
           "(N,), bool: no other point of the element is nearer, within the tolerance and rounding")
       .def("__len__", [](const NearestPoints& self) { return self.parameter.size(); });
 
+  py::class_<CharacterPoints>(module, "CharacterPoints", "Results of N queries to a character or stroke.")
+      .def(py::init<py::array_t<int>, py::array_t<int>, NearestPoints>(), "stroke"_a, "element"_a, "closest"_a)
+      .def_readonly("stroke", &CharacterPoints::stroke, "(N,), indices of strokes; 0 for a single stroke")
+      .def_readonly("element", &CharacterPoints::element, "(N,), indices of elements within their stroke")
+      .def_readonly("closest", &CharacterPoints::closest, "NearestPoints, on those elements [m]")
+      .def("__len__", [](const CharacterPoints& self) { return self.stroke.size(); });
+
   py::class_<StrokeElement>(module, "StrokeElement",
                             "+ Control points (2, 2) to (5, 2), in any unit; all other lengths are in the same unit.")
       .def(py::init(&element_of), "control_points"_a)
@@ -133,11 +203,19 @@ void add_collision(py::module_& module) {
              "to the element's size. A query that is not finite has an infinite distance and is not certified. Raises "
              "InvalidValue naming the argument.");
 
+  module.def("nearest_stroke_point", &ask_strokes, "character"_a, "placement"_a, "queries"_a, "method"_a = "exact",
+             "tolerance"_a = 1e-9, "samples"_a = 16, "refinements"_a = 2,
+             "Nearest points of N queries on all strokes of a Character, or on a single Stroke. Releases the GIL."
+             "\n\nqueries: (N, 2) [m, page]; the others as for nearest_point. Of distances that are equal within "
+             "rounding the earlier stroke wins, and within a stroke the earlier element. A query that is not finite "
+             "has an infinite distance and is not certified. Raises InvalidValue naming the argument.");
+
   add_struct<StrokePlace>(module);
   py::class_<ActiveStroke>(module, "ActiveStroke", "The stroke that is due, as passed to begin() of a guidance law.")
       .def_property_readonly("length", &ActiveStroke::length)
       .def("at", &ActiveStroke::at, "arc"_a);
-  module.def("place_elements", &place_elements, "stroke"_a, "placement"_a);
+  module.def("place_elements", py::overload_cast<const Stroke&, const Placement&>(&place_elements), "stroke"_a,
+             "placement"_a);
 }
 
 }  // namespace calligraphy::python

@@ -71,6 +71,26 @@ def test_a_prepared_element_gives_the_same_results_as_its_control_points():
     assert np.allclose(np.linalg.norm(element.tangent(t), axis=1), 1.0)
 
 
+@pytest.mark.parametrize("method", ["exact", "sampled"])
+def test_the_nearest_point_of_a_character_is_the_nearest_of_all_elements(method):
+    placement = cal.Placement(origin=(0.01, -0.02), em=0.05)
+    character = cal.built_in_characters()["永"]
+    queries = np.random.default_rng(4).uniform(-0.02, 0.07, size=(700, 2))
+    queries[5] = np.nan
+    strokes = character.strokes()
+    for given, asked in [(character, strokes), *((stroke, [stroke]) for stroke in strokes)]:
+        found = cal.nearest_stroke_point(given, placement, queries, method=method)
+        elements = [(i, k, e) for i, s in enumerate(asked) for k, e in enumerate(cal.place_elements(s, placement))]
+        alone = [cal.nearest_point(element, queries, method) for _, _, element in elements]
+        least = np.min([each.distance for each in alone], axis=0)
+        assert len(found) == len(queries) and np.allclose(found.closest.distance, least, rtol=0, atol=1e-15)
+        for (stroke, index, _), each in zip(elements, alone):
+            own = (found.stroke == stroke) & (found.element == index)
+            for part in ("parameter", "point", "distance", "tangent", "status"):
+                assert np.array_equal(getattr(found.closest, part)[own], getattr(each, part)[own])
+        assert found.closest.status[5] == cal.NearestPointStatus.not_finite and found.element[5] == 0
+
+
 @pytest.mark.parametrize(
     "layout",
     [
@@ -271,6 +291,10 @@ def felt(force):
 #: All functions with array arguments: the argument's name, a valid array, and a call. A length of None is arbitrary.
 TAKERS = {
     "nearest_point": ("queries", (None, 2), lambda a: cal.nearest_point(CUBIC, a).point),
+    "nearest_stroke_point": (
+        "queries", (None, 2),
+        lambda a: cal.nearest_stroke_point(PAGE.characters[0].character, cal.Placement(), a).closest.point,
+    ),
     "StrokeElement.point": ("t", (None,), lambda a: cal.StrokeElement(CUBIC).point(a)),
     "StrokeElement.tangent": ("t", (None,), lambda a: cal.StrokeElement(CUBIC).tangent(a)),
     "StrokeElement.curvature": ("t", (None,), lambda a: cal.StrokeElement(CUBIC).curvature(a)),

@@ -82,6 +82,7 @@ def released(tmp_path):
     replayed = cal.device_states(RECORDING, cal.upright_page(SHORT.width, SHORT.height))
     return {
         "nearest_point": lambda: cal.nearest_point(CUBIC, many),
+        "nearest_stroke_point": lambda: cal.nearest_stroke_point(placed.character, placed.placement, many),
         "trace": lambda: whole.trace(states),
         "write_page": lambda: cal.write_page(SHORT, OPTIONS),
         "follow_trace": lambda: cal.follow_trace(SHORT, TRACE, OPTIONS),
