@@ -53,8 +53,12 @@ struct ElementBox {
 template <typename Place>
 class StrokeBlock {
  public:
-  StrokeBlock(std::span<const Point> queries, std::span<Place> results, const NearestPointOptions& options)
-      : queries_(queries), results_(results), options_(options) {
+  explicit StrokeBlock(const NearestPointOptions& options) : options_(options) {}
+
+  void begin(std::span<const Point> queries, std::span<Place> results) {
+    queries_ = queries;
+    results_ = results;
+    has_answers_ = false;
     std::fill(results.begin(), results.end(), Place{.closest = no_point()});
   }
 
@@ -91,9 +95,9 @@ class StrokeBlock {
     results_[i] = place;
   }
 
+  const NearestPointOptions& options_;
   std::span<const Point> queries_;
   std::span<Place> results_;
-  const NearestPointOptions& options_;
   bool has_answers_ = false;
   std::array<Point, queries_per_block> asked_;
   std::array<std::size_t, queries_per_block> index_;  ///< of `asked_`, among all queries
@@ -105,9 +109,10 @@ template <typename Place, typename EachElement>
 void answer_in_blocks(const EachElement& each_element, std::span<const Point> queries, std::span<Place> results,
                       const NearestPointOptions& options) {
   const std::size_t count = std::min(queries.size(), results.size());
+  StrokeBlock<Place> block(options);
   for (std::size_t first = 0; first < count; first += queries_per_block) {
     const std::size_t size = std::min(queries_per_block, count - first);
-    StrokeBlock<Place> block(queries.subspan(first, size), results.subspan(first, size), options);
+    block.begin(queries.subspan(first, size), results.subspan(first, size));
     each_element([&](const StrokeElement& element, const Place& place) { block.ask(element, place); });
   }
 }

@@ -104,8 +104,8 @@ struct CharacterPoints {
   NearestPoints closest;
 };
 
-CharacterPoints ask_strokes(const std::variant<Character, Stroke>& character, const Placement& placement,
-                            const ArrayLike& queries, const Given<NearestPointMethod>& method, double tolerance,
+CharacterPoints ask_strokes(const std::variant<Character, Stroke>& character, const ArrayLike& queries,
+                            const Placement& placement, const Given<NearestPointMethod>& method, double tolerance,
                             int samples, int refinements) {
   const NearestPointOptions options = options_of(method, tolerance, samples, refinements);
   std::vector<std::vector<StrokeElement>> elements;
@@ -203,8 +203,8 @@ void add_collision(py::module_& module) {
              "to the element's size. A query that is not finite has an infinite distance and is not certified. Raises "
              "InvalidValue naming the argument.");
 
-  module.def("nearest_stroke_point", &ask_strokes, "character"_a, "placement"_a, "queries"_a, "method"_a = "exact",
-             "tolerance"_a = 1e-9, "samples"_a = 16, "refinements"_a = 2,
+  module.def("nearest_points", &ask_strokes, "character"_a, "queries"_a, "placement"_a = Placement{},
+             "method"_a = "exact", "tolerance"_a = 1e-9, "samples"_a = 16, "refinements"_a = 2,
              "Nearest points of N queries on all strokes of a Character, or on a single Stroke. Releases the GIL."
              "\n\nqueries: (N, 2) [m, page]; the others as for nearest_point. Of distances that are equal within "
              "rounding the earlier stroke wins, and within a stroke the earlier element. A query that is not finite "

@@ -79,7 +79,7 @@ def test_the_nearest_point_of_a_character_is_the_nearest_of_all_elements(method)
     queries[5] = np.nan
     strokes = character.strokes()
     for given, asked in [(character, strokes), *((stroke, [stroke]) for stroke in strokes)]:
-        found = cal.nearest_stroke_point(given, placement, queries, method=method)
+        found = cal.nearest_points(given, queries, placement, method=method)
         elements = [(i, k, e) for i, s in enumerate(asked) for k, e in enumerate(cal.place_elements(s, placement))]
         alone = [cal.nearest_point(element, queries, method) for _, _, element in elements]
         least = np.min([each.distance for each in alone], axis=0)
@@ -291,9 +291,9 @@ def felt(force):
 #: All functions with array arguments: the argument's name, a valid array, and a call. A length of None is arbitrary.
 TAKERS = {
     "nearest_point": ("queries", (None, 2), lambda a: cal.nearest_point(CUBIC, a).point),
-    "nearest_stroke_point": (
+    "nearest_points": (
         "queries", (None, 2),
-        lambda a: cal.nearest_stroke_point(PAGE.characters[0].character, cal.Placement(), a).closest.point,
+        lambda a: cal.nearest_points(PAGE.characters[0].character, a).closest.point,
     ),
     "StrokeElement.point": ("t", (None,), lambda a: cal.StrokeElement(CUBIC).point(a)),
     "StrokeElement.tangent": ("t", (None,), lambda a: cal.StrokeElement(CUBIC).tangent(a)),

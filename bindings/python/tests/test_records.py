@@ -274,9 +274,7 @@ def test_pages_are_equal_if_their_characters_are():
 #: Objects other than structs that support pickling and copying.
 RESULTS = {
     "NearestPoints": lambda: cal.nearest_point([[0, 0], [1, 2], [3, 0]], [[0, 1], [2, 2], [np.nan, 0]]),
-    "CharacterPoints": lambda: cal.nearest_stroke_point(
-        cal.built_in_characters()["永"], cal.Placement(), [[0.03, 0.01], [np.nan, 0]]
-    ),
+    "CharacterPoints": lambda: cal.nearest_points(cal.built_in_characters()["永"], [[0.03, 0.01], [np.nan, 0]]),
     "Recording": lambda: cal.Recording(
         500.0, np.ones(3, dtype=cal.sample_dtype), inputs=np.ones(3, dtype=cal.input_dtype),
         setup=cal.RecordingSetup(mode="vision"),

@@ -82,7 +82,7 @@ def released(tmp_path):
     replayed = cal.device_states(RECORDING, cal.upright_page(SHORT.width, SHORT.height))
     return {
         "nearest_point": lambda: cal.nearest_point(CUBIC, many),
-        "nearest_stroke_point": lambda: cal.nearest_stroke_point(placed.character, placed.placement, many),
+        "nearest_points": lambda: cal.nearest_points(placed.character, many, placed.placement),
         "trace": lambda: whole.trace(states),
         "write_page": lambda: cal.write_page(SHORT, OPTIONS),
         "follow_trace": lambda: cal.follow_trace(SHORT, TRACE, OPTIONS),
