@@ -13,7 +13,7 @@ if [[ ${1:-} == one ]]; then
   trap 'rm -rf "$layout"' EXIT
   python3 web/layout.py include/calligraphy/c/calligraphy.h "$layout"
   printf '#include "%s"\n' tests/portability/print_page.cpp src/c/*.cpp "$layout/layout_check.cpp" |
-    em++ -std=c++20 -fwasm-exceptions -fsyntax-only -DCALLIGRAPHY_LIBRARY_VERSION='""' -I. -Iinclude -Isrc \
+    em++ -std=c++20 -fwasm-exceptions -msimd128 -fsyntax-only -DCALLIGRAPHY_LIBRARY_VERSION='""' -I. -Iinclude -Isrc \
       -isystem /usr/include/eigen3 -x c++ -
   exit
 fi
@@ -21,7 +21,7 @@ build=${1:-build-full}
 scripts/full/native.sh "$build"
 found() { sed -n "s/^$1:[A-Z]*=//p" "$build/native/CMakeCache.txt"; }  # header-only, the same for every processor
 emcmake cmake -S tests/portability -B "$build/wasm" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_CXX_FLAGS=-fwasm-exceptions -DEigen3_DIR="$(found Eigen3_DIR)" \
+  -DCMAKE_CXX_FLAGS="-fwasm-exceptions -msimd128" -DEigen3_DIR="$(found Eigen3_DIR)" \
   -DUTF8CPP_INCLUDE_DIR="$(found UTF8CPP_INCLUDE_DIR)" > /dev/null
 cmake --build "$build/wasm" --target print_bits print_page
 ls -l "$build"/wasm/*.wasm
