@@ -138,12 +138,10 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
     if (input.contact) write_on(pen);
     input.stroke_finished = is_finished(pen);
   } else if (input.contact && input.may_start) {
-    if (writer_.state == InteractionState::separation) {
-      put_down(tip);
-    } else if (seeks_rest_) {
-      find_rest(tip);
-    }
+    const bool is_put_down = writer_.state == InteractionState::separation;
+    if (is_put_down) put_down(tip);
     input.begins = begins(pen);
+    if (seeks_rest_ && !is_put_down) find_rest(tip);
   }
   return input;
 }
@@ -157,6 +155,7 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
 /// Whether the pen rests on the stroke: in the tick after it was put down, which has enough to do.
 [[gnu::noinline]] void StrokeSequencer::find_rest(const Point& tip) noexcept {
   seeks_rest_ = false;
+  if (attempt_.capture.verdict() == CaptureVerdict::another_stroke) return;
   const StrokeContact nearest = due_->geometry.nearest(tip, stroke_);
   writer_.rests = nearest.closest.distance <= tolerances_.corridor * writer_.em;
   if (!writer_.rests) return;
