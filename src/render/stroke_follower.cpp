@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "collision/pair.hpp"
 #include "stroke_verdict.hpp"
@@ -21,10 +22,8 @@ constexpr double max_lead = 0.03, max_lead_share = 0.15;
 /// The pen is looked at each time it has moved this far [em].
 constexpr double step = 0.01;
 
-/// The pen's way is looked at this often, at least once a tick, but each leg of it within so many ticks: a fast pen is
-/// never far ahead.
-constexpr double looks_a_second = 2000.0;
-constexpr int max_leg_ticks = 4;
+constexpr double looks_a_second = 2000.0;  ///< at a first stretch, at least one a tick
+constexpr int all_looks = std::numeric_limits<int>::max();
 
 /// The end of the stroke may be reached soon from within this distance [em].
 constexpr double end_zone = 0.1;
@@ -114,44 +113,68 @@ void StrokeFollower::begin(const Point& tip, const Point& misplaced) noexcept {
   tip_ = seen_ = chord_from_ = tip;
   nearest_ = covered_ = way_ = outside_ = chords_ = 0.0;
   pull_ = Point::Zero();
-  leg_steps_ = 0;
+  is_first_leg_ = true;
+  is_behind_ = false;
   to_end_ = length_;
 }
 
 void StrokeFollower::update(const Point& tip, const Point& hand) noexcept {
   tip_ = tip;
   pull_ = hand - tip;
-  if (leg_steps_ > 0 || (tip - seen_).squaredNorm() >= step * em_ * (step * em_)) look_along(false);
+  if (is_behind_) {
+    wait();
+  } else if ((tip - seen_).squaredNorm() >= step * em_ * (step * em_)) {
+    look_along();
+  }
 }
 
 void StrokeFollower::leave() noexcept {
-  look_along(true);
+  if (is_behind_) catch_up(all_looks);
   look(tip_, (tip_ - seen_).norm());
 }
 
-/// Fills in between samples: of lost ones, and of a first stretch that does not bend, only the ends are known. A leg
-/// that is too long for one tick is looked at in the next ones, since the tick that brings it has enough to do, but not
-/// near the end, which must not be noticed late.
-[[gnu::noinline]] void StrokeFollower::look_along(bool at_once) noexcept {
-  const double near_end = end_zone * em_;
-  at_once = at_once || (tip_ - row(count_ - 1).point).squaredNorm() < near_end * near_end;
-  do {
-    if (leg_steps_ == 0) {
-      leg_from_ = seen_;
-      leg_ = tip_ - seen_;
-      leg_way_ = leg_.norm();
-      leg_steps_ = static_cast<int>(std::min(leg_way_ / (step * em_), 1.0 * max_points));
-      leg_step_ = 0;
-      if (leg_steps_ == 0 || (leg_steps_ > looks_a_tick_ && !at_once)) return;
-    }
-    const int looks = at_once ? leg_steps_ : std::max(looks_a_tick_, leg_steps_ / max_leg_ticks);
-    const int last = std::min(leg_steps_, leg_step_ + looks);
-    while (leg_step_ < last) {
-      ++leg_step_;
-      look(leg_from_ + leg_ * leg_step_ / leg_steps_, leg_way_ / leg_steps_);
-    }
-    if (last == leg_steps_) leg_steps_ = 0;
-  } while (at_once);
+/// Fills in between samples: of lost ones, and of a first stretch that does not bend, only the ends are known. The tick
+/// that brings a first stretch has enough to do: that is looked at in the next ones, while the samples wait.
+[[gnu::noinline]] void StrokeFollower::look_along() noexcept {
+  begin_leg({tip_, pull_});
+  is_behind_ = is_first_leg_ && leg_steps_ > looks_a_tick_ && !is_near_end();
+  is_first_leg_ = false;
+  waiting_ = next_ = 0;
+  if (!is_behind_) catch_up(all_looks);
+}
+
+void StrokeFollower::begin_leg(const Sample& to) noexcept {
+  leg_from_ = seen_;
+  leg_ = to.tip - seen_;
+  leg_pull_ = to.pull;
+  leg_way_ = leg_.norm();
+  leg_steps_ = static_cast<int>(std::min(leg_way_ / (step * em_), 1.0 * max_points));
+  leg_step_ = 0;
+}
+
+/// The end of the stroke must not be noticed late.
+bool StrokeFollower::is_near_end() const noexcept {
+  const double near = end_zone * em_ + lead_;
+  return (tip_ - row(count_ - 1).point).squaredNorm() < near * near;
+}
+
+[[gnu::noinline]] void StrokeFollower::wait() noexcept {
+  samples_[static_cast<std::size_t>(waiting_++)] = {tip_, pull_};
+  catch_up(waiting_ == max_waiting || is_near_end() ? all_looks : looks_a_tick_);
+}
+
+/// Looks at what it would have looked at, had it done so at once.
+void StrokeFollower::catch_up(int looks) noexcept {
+  const Point pull = pull_;
+  for (;; --looks) {
+    while (leg_step_ == leg_steps_ && next_ < waiting_) begin_leg(samples_[static_cast<std::size_t>(next_++)]);
+    is_behind_ = leg_step_ < leg_steps_;
+    if (!is_behind_ || looks == 0) break;
+    pull_ = leg_pull_;
+    ++leg_step_;
+    look(leg_from_ + leg_ * leg_step_ / leg_steps_, leg_way_ / leg_steps_);
+  }
+  pull_ = pull;
 }
 
 /// How far a vector from the stroke reaches across it, beyond the offsets that the writer may have: none, that of the

@@ -17,7 +17,7 @@ namespace calligraphy {
 class StrokeFollower {
  public:
   /// Loads the stroke to be written, in a square of `em` [m]. Takes a few microseconds. `servo_rate`: of the updates
-  /// [Hz], over which long ways are spread; at 0, which stands for one that is not known, they are not.
+  /// [Hz], over which a first stretch is spread; at 0, which stands for one that is not known, it is not.
   void load(const ActiveStroke& stroke, double em, const StrokeTolerances& tolerances, double servo_rate = 0.0);
 
   /// The stroke is begun at `tip`, in a character that the writer has misplaced by `misplaced` so far [m, page].
@@ -41,8 +41,14 @@ class StrokeFollower {
  private:
   static constexpr int max_points = 64;  // as many as the bits of a word
 
+  static constexpr int max_waiting = 16;
+
   struct RowPoint {
     Point point, tangent;
+  };
+
+  struct Sample {
+    Point tip, pull;
   };
 
   /// Where the pen is relative to the points of the stroke, allowing for its offset at the beginning.
@@ -56,7 +62,11 @@ class StrokeFollower {
   void place(const Point& tip, int point, Places& places) const noexcept;
   void pass_special(int point, double square, Places& places) const noexcept;
   double across(const Point& from_stroke, const Point& tangent) const noexcept;
-  void look_along(bool at_once) noexcept;
+  void look_along() noexcept;
+  void begin_leg(const Sample& to) noexcept;
+  bool is_near_end() const noexcept;
+  void wait() noexcept;
+  void catch_up(int looks) noexcept;
   void look(const Point& tip, double way) noexcept;
   void measure(const Point& tip) noexcept;
 
@@ -80,16 +90,20 @@ class StrokeFollower {
   Point tip_ = Point::Zero();         ///< of the last sample
   Point pull_ = Point::Zero();        ///< from there to where the hand means to be
   Point seen_ = Point::Zero();        ///< where the pen was last looked at
-  Point leg_from_ = Point::Zero();    ///< beginning of the leg of the pen's path that is being looked at
-  Point leg_ = Point::Zero();         ///< from there to its end
-  double leg_way_ = 0.0;              ///< its length
-  int leg_step_ = 0, leg_steps_ = 0;  ///< looks done and in all; 0 where there is no leg
   Point chord_from_ = Point::Zero();  ///< beginning of the current chord
   double nearest_ = 0.0;              ///< arc length of the furthest point that the pen was nearest to
   double covered_ = 0.0;              ///< arc length
   double way_ = 0.0, outside_ = 0.0;  ///< lengths of the pen's path, and of what lay outside the corridor
   double chords_ = 0.0;               ///< length of the path inside it
   double to_end_ = 0.0;               ///< distance to the end of the stroke, once that can have been reached
+  bool is_first_leg_ = false;         ///< the pen has not been looked at since it began
+  bool is_behind_ = false;            ///< the leg that the pen has moved is being looked at, and samples wait
+  int waiting_ = 0, next_ = 0;        ///< samples that waited, and the first that still does
+  int leg_step_ = 0, leg_steps_ = 0;  ///< looks at the leg, and how many it takes
+  double leg_way_ = 0.0;              ///< its length
+  Point leg_from_ = Point::Zero(), leg_ = Point::Zero();  ///< its beginning, and the vector from there to its end
+  Point leg_pull_ = Point::Zero();                        ///< `pull_` at its end
+  std::array<Sample, max_waiting> samples_;
 };
 
 }  // namespace calligraphy

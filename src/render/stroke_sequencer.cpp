@@ -138,10 +138,8 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
     if (input.contact) write_on(pen);
     input.stroke_finished = is_finished(pen);
   } else if (input.contact && input.may_start) {
-    const bool is_put_down = writer_.state == InteractionState::separation;
-    if (is_put_down) put_down(tip);
+    if (writer_.state == InteractionState::separation) put_down(tip);
     input.begins = begins(pen);
-    if (seeks_rest_ && !is_put_down) find_rest(tip);
   }
   return input;
 }
@@ -149,13 +147,7 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
 [[gnu::noinline]] void StrokeSequencer::put_down(const Point& tip) noexcept {
   writer_.covered = 0.0;
   set_out(tip);
-  seeks_rest_ = tolerances_.coverage > 0.0;
-}
-
-/// Whether the pen rests on the stroke: in the tick after it was put down, which has enough to do.
-[[gnu::noinline]] void StrokeSequencer::find_rest(const Point& tip) noexcept {
-  seeks_rest_ = false;
-  if (attempt_.capture.verdict() == CaptureVerdict::another_stroke) return;
+  if (tolerances_.coverage == 0.0) return;
   const StrokeContact nearest = due_->geometry.nearest(tip, stroke_);
   writer_.rests = nearest.closest.distance <= tolerances_.corridor * writer_.em;
   if (!writer_.rests) return;
@@ -181,7 +173,8 @@ bool StrokeSequencer::begins(const PenState& pen) noexcept {
   const CaptureVerdict verdict = try_to_begin(attempt_, writer_.stroke, pen);
   if (verdict == CaptureVerdict::begun) return true;
   if (verdict == CaptureVerdict::another_stroke) writer_.rests = false;
-  if (writer_.rests) writer_.contact = due_->geometry.update(pen.tip.head<2>(), stroke_);
+  const bool is_put_down = writer_.state == InteractionState::separation;  // its contact is known
+  if (writer_.rests && !is_put_down) writer_.contact = due_->geometry.update(pen.tip.head<2>(), stroke_);
   return false;
 }
 
@@ -271,7 +264,7 @@ void StrokeSequencer::step_fit() noexcept {
   writer_.events |= TickEvent::stroke_started;
   if (in_doubt_) writer_.events |= TickEvent::stroke_abandoned;
   in_doubt_ = false;
-  writer_.rests = seeks_rest_ = passed_end_ = false;
+  writer_.rests = passed_end_ = false;
   look_ = Look::none;
   due_->geometry.begin(attempt_.capture.begin());
   if (!start(writer_.stroke).bends) {
@@ -388,7 +381,7 @@ void StrokeSequencer::step_fit() noexcept {
 
 [[gnu::noinline]] void StrokeSequencer::lift() noexcept {
   writer_.events |= TickEvent::lift;
-  writer_.rests = seeks_rest_ = false;
+  writer_.rests = false;
   if (all_written()) return;
   if (is_character_written()) activate(writer_.character + 1, 0);
 }
@@ -400,7 +393,7 @@ void StrokeSequencer::step_fit() noexcept {
   }
   writer_.character = character;
   writer_.stroke = stroke;
-  writer_.rests = seeks_rest_ = false;
+  writer_.rests = false;
   character_ = character < page_.size() ? &page_[character] : nullptr;
   if (all_written()) return;
   due_ = &this->stroke(stroke);
@@ -472,7 +465,7 @@ bool StrokeSequencer::is_guided() const noexcept {
     case WritingPhase::at_start:
       return attempt_.capture.is_nearest();
     default:
-      return leads_to_start_ && attempt_.capture.is_nearest() && !writer_.rests && !seeks_rest_;
+      return leads_to_start_ && attempt_.capture.is_nearest() && !writer_.rests;
   }
 }
 

@@ -60,7 +60,6 @@ class StrokeSequencer {
 
   TransitionInput advance(const PenState& pen) noexcept;
   void put_down(const Point& tip) noexcept;
-  void find_rest(const Point& tip) noexcept;
   void set_out(const Point& tip) noexcept;
   bool begins(const PenState& pen) noexcept;
   CaptureVerdict try_to_begin(Attempt& attempt, int stroke, const PenState& pen) noexcept;
@@ -111,7 +110,6 @@ class StrokeSequencer {
   Point doubted_down_ = Point::Zero();      ///< where the pen was put down for it [m, page]
   StrokeStart rest_;                        ///< of it, where the pen left it
   bool inside_box_ = false;
-  bool seeks_rest_ = false;                 ///< the pen has just been put down, and may rest on the stroke
   WriterState writer_;
   // The largest, last: see apart().
   Attempt attempt_;  ///< to write the due stroke
