@@ -59,11 +59,13 @@ class StrokeBlock {
     queries_ = queries;
     results_ = results;
     has_answers_ = false;
+    size_ = 0.0;
     std::fill(results.begin(), results.end(), Place{.closest = no_point()});
   }
 
   /// Asks the next element, which is at this place.
   void ask(const StrokeElement& element, Place place) {
+    size_ = std::max(size_, element.size());
     if (!std::exchange(has_answers_, true)) {
       nearest_points(element, queries_, found_, options_);
       for (std::size_t i = 0; i < queries_.size(); ++i) write(i, found_[i], place);
@@ -74,7 +76,7 @@ class StrokeBlock {
     for (std::size_t k = 0; k < count; ++k) {
       const NearestPoint& found = found_[k];
       const double gain = results_[index_[k]].closest.distance - found.distance;
-      if (gain > distance_tie(element, found.distance)) write(index_[k], found, place);
+      if (gain > distance_tie(size_, found.distance)) write(index_[k], found, place);
     }
   }
 
@@ -86,7 +88,9 @@ class StrokeBlock {
       const double distance = results_[i].closest.distance;
       asked_[count] = queries_[i];
       index_[count] = i;
-      count += box.squared_distance(queries_[i]) > 1.000001 * distance * distance ? 0 : 1;
+      const bool is_farther =
+          distance > min_square_root && box.squared_distance(queries_[i]) > 1.000001 * distance * distance;
+      count += is_farther ? 0 : 1;
     }
     return count;
   }
@@ -99,6 +103,7 @@ class StrokeBlock {
   std::span<const Point> queries_;
   std::span<Place> results_;
   bool has_answers_ = false;
+  double size_ = 0.0;  ///< of the largest element that has been asked
   std::array<Point, queries_per_block> asked_;
   std::array<std::size_t, queries_per_block> index_;  ///< of `asked_`, among all queries
   std::array<NearestPoint, queries_per_block> found_;

@@ -1,4 +1,4 @@
-// Refines a good initial value to the nearest point: one step of Halley's method, one of Newton's, and a check of both.
+// Refines a good initial value to the nearest point: a step of fourth order, one of Newton's, and a check of both.
 #pragma once
 
 #include <array>
@@ -97,7 +97,7 @@ template <int Degree>
   return tolerance * (0.5 / Degree);
 }
 
-/// A step of Halley's method, of fourth order, towards the zero of g near t.
+/// A step of Householder's third method, of fourth order, towards the zero of g near t.
 template <int Degree>
 [[gnu::always_inline]] inline double approach(const SlopePolynomial<Degree>& polynomial, double t, double& bend) {
   const auto value = polynomial.at(t);

@@ -10,10 +10,13 @@ namespace calligraphy {
 /// Rounding error of a distance, relative to it and to the size of the element.
 inline constexpr double distance_rounding = 1e-14;
 
-/// Distances that differ by no more than this from a distance to the element count as equal to it.
-inline double distance_tie(const StrokeElement& element, double distance) noexcept {
-  return distance_rounding * element.size() + 2.0 * std::numeric_limits<double>::epsilon() * distance;
+/// Distances to elements of at most this size that differ by no more count as equal.
+inline double distance_tie(double size, double distance) noexcept {
+  return distance_rounding * size + 2.0 * std::numeric_limits<double>::epsilon() * distance;
 }
+
+/// Squares of smaller lengths are inexact.
+inline constexpr double min_square_root = 1e-150;
 
 /// The answer of no elements.
 inline NearestPoint no_point() noexcept {

@@ -51,13 +51,15 @@ StrokePoint StrokeTracker::update(const Point& query) noexcept {
   StrokePoint nearest{last_, elements_.empty() ? no_point() : find_on(last_, query)};
   // The distance to an element changes by at most the distance that the pen travels.
   const double lead = clearance_ - nearest.closest.distance;
-  if (lead > 0.0 && (query - last_query_).squaredNorm() < lead * lead) return nearest;
+  if (lead > min_square_root && (query - last_query_).squaredNorm() < lead * lead) return nearest;
   if (nearest.closest.status != NearestPointStatus::not_finite) compare(query, nearest);
   return nearest;
 }
 
 [[gnu::noinline]] void StrokeTracker::compare(const Point& query, StrokePoint& nearest) noexcept {
   const auto count = static_cast<int>(elements_.size());
+  double size = 0.0;
+  for (const StrokeElement& element : elements_) size = std::max(size, element.size());
   keep(last_, query, nearest.closest.distance);
   double clearances[max_elements_per_stroke];
   for (int i = 0; i < count; ++i) {
@@ -68,7 +70,7 @@ StrokePoint StrokeTracker::update(const Point& query) noexcept {
     keep(i, query, closest.distance);
     clearances[i] = clearance_of(i, query);
     const double gain = nearest.closest.distance - closest.distance;
-    const double tie = distance_tie(elements_[static_cast<std::size_t>(i)], closest.distance);
+    const double tie = distance_tie(size, closest.distance);
     if (gain > tie || (gain >= -tie && i < nearest.element)) nearest = {i, closest};
   }
   last_ = nearest.element;

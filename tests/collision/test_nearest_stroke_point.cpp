@@ -33,10 +33,12 @@ CharacterPoint nearest_of_all(const std::vector<PlacedElements>& strokes, const 
                            const NearestPointOptions& options) {
   CharacterPoint best{0, 0, {.distance = infinite, .status = NearestPointStatus::not_finite}};
   bool is_first = true;
+  double size = 0.0;  // of the largest so far
   for (std::size_t k = 0; k < strokes.size(); ++k) {
     for (std::size_t i = 0; i < strokes[k].size(); ++i) {
       const NearestPoint found = nearest_point(strokes[k][i], query, options);
-      const double tie = 1e-14 * strokes[k][i].size() + 0x1p-51 * found.distance;
+      size = std::max(size, strokes[k][i].size());
+      const double tie = 1e-14 * size + 0x1p-51 * found.distance;
       if (is_first || best.closest.distance - found.distance > tie) {
         best = {static_cast<int>(k), static_cast<int>(i), found};
       }
