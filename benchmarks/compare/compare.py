@@ -113,7 +113,8 @@ def instructions(program, options):
     def calls_of(kind):
         return sum(count for name, count in calls.items() if kind in name)
 
-    asked = max(calls_of("::tracked<"), calls_of("::tracked_nearest_point("))  # one may be inlined into the other
+    asked = max(calls_of("::tracked<"), calls_of("::tracked_nearest_point("),  # one may be inlined into the other
+                calls_of("::tracked_avx2<") + calls_of("::tracked_baseline<"))
     searched = calls_of("::certified_avx2<") + calls_of("::certified_baseline<")
     return costs, 1.0 - searched / asked
 
