@@ -31,6 +31,7 @@ void ActiveStroke::load(const Stroke& stroke, const Placement& placement) {
   double arc = 0.0;
   for (const StrokeElement& element : elements) {
     const std::size_t i = parts_.size();
+    if (i == 0) start_ = element.origin();
     const double end = arc + element.length();
     parts_.push_back({element, detail::end_plane(element), arc, end, stroke.attraction_factors[i],
                       stroke.attraction_factors[i + 1]});

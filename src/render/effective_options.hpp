@@ -14,14 +14,14 @@
 namespace calligraphy {
 
 struct EffectiveOptions {
-  RendererOptions options;
-  std::vector<std::string> clipped;  ///< one line per value, with the reason
   double guidance_limit = 0.0;       ///< maximum stiffness of guidance, attraction factor included [N/m, page]
-  double max_attraction = 1.0;       ///< largest attraction factor on the page [1]
-  GuidanceTraits traits;             ///< of the guidance law
-  bool has_own_law = false;          ///< the law is not a built-in one
   double law_share = 1.0;            ///< share of its spring that the device permits [1]
+  GuidanceTraits traits;             ///< of the guidance law
+  RendererOptions options;
+  double max_attraction = 1.0;       ///< largest attraction factor on the page [1]
+  bool has_own_law = false;          ///< the law is not a built-in one
   double law_stiffness = 0.0;        ///< at which the force may follow the pen because of the law [N/m, page]
+  std::vector<std::string> clipped;  ///< one line per value, with the reason
 
   /// Stiffness of guidance where the attraction factor is this one [N/m, page].
   double guidance_stiffness(double attraction) const noexcept {

@@ -16,10 +16,10 @@ constexpr double unguided_start = 0.5;
 }  // namespace
 
 Guidance::Guidance(const EffectiveOptions& effective, std::unique_ptr<GuidanceLaw> law)
-    : effective_(effective),
+    : law_(std::move(law)),
       period_(1.0 / effective.options.servo_rate),
       assistance_(effective.options.guidance.assist),
-      law_(std::move(law)) {
+      effective_(effective) {
   input_.damping = effective.options.guidance.damping;
   input_.max_stiffness = effective.guidance_limit;
   input_.dt = period_;

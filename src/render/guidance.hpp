@@ -48,22 +48,23 @@ class Guidance {
   Point way_to_start(const WriterState& writer) const noexcept;
   Point faded(const PenState& pen, const WriterState& writer, const Point& sent) noexcept;
 
+  // First what every tick reads, in few cache lines.
   GuidanceForce force_;
-  EffectiveOptions effective_;
-  double period_;     ///< [s]
-  double fade_step_;  ///< per tick
-  Assistance assistance_;
   std::unique_ptr<GuidanceLaw> law_;
-  GuidanceInput input_;
-  bool begun_ = false;  ///< the law has begun this attempt
-  std::exception_ptr error_;
-  bool guided_ = false;      ///< in the previous tick
-  ReleasedSpring released_;  ///< the guidance before it last jumped, took hold or let go
-  double fade_ = 0.0;        ///< progress of the fade-in since then, 0 to 1
+  double period_;                 ///< [s]
+  double fade_step_;              ///< per tick
+  bool begun_ = false;            ///< the law has begun this attempt
+  bool guided_ = false;           ///< in the previous tick
+  double fade_ = 0.0;             ///< progress of the fade-in since guidance last jumped, took hold or let go, 0 to 1
   double normal_before_ = 0.0;    ///< normal force of the law in the previous tick [N]
   double released_normal_ = 0.0;  ///< the law's normal force at that time [N]
   double normal_left_ = 0.0;      ///< share of it that is left, before the smooth step: 1 to 0
   double normal_step_ = 0.0;      ///< per tick
+  Assistance assistance_;
+  ReleasedSpring released_;  ///< the guidance before that
+  GuidanceInput input_;
+  EffectiveOptions effective_;
+  std::exception_ptr error_;
 };
 
 }  // namespace calligraphy

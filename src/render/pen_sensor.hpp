@@ -60,9 +60,9 @@ class PenSensor {
   std::int64_t unseen_ = 0;                  ///< ticks since then, without a good sample
   double above_for_ = 0.0;                   ///< how long a pen in contact has been above the paper [s]
   double unsure_for_;         ///< how long the force must not yet follow the pen at once [s]
+  bool is_in_doubt_ = false;  ///< the last sample was off the pen's course
   PenCourse believed_;        ///< of the pen
   PenCourse doubted_;         ///< of samples off that course
-  bool is_in_doubt_ = false;  ///< the last sample was one of these
   Eigen::Vector3d still_at_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [m, device]
   Eigen::Vector3d still_force_ = Eigen::Vector3d::Zero();  ///< at work when the pen was first seen there [N, device]
   double still_for_ = 0.0;                                 ///< since the force has changed from that [s]

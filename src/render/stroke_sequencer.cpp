@@ -50,16 +50,16 @@ bool is_within(const Eigen::AlignedBox2d& box, const Point& point) {
 
 StrokeSequencer::StrokeSequencer(std::vector<PlacedCharacter> page, const RendererOptions& options,
                                  const Capabilities& capabilities, const MotionMapping& mapping, bool lets_go)
-    : page_(std::move(page), options),
-      stroke_{options.nearest, options.guidance.space, options.rules},
+    : stroke_{options.nearest, options.guidance.space, options.rules},
       tolerances_(options.tolerances),
       box_hysteresis_(is_printed(options.rules) ? 0.0 : box_hysteresis),
       lift_between_strokes_(options.contact.lift_between_strokes),
       leads_to_start_(options.guidance.to_start),
       lets_go_(lets_go),
+      fit_steps_(fit_steps(options.servo_rate)),
       mapping_(mapping),
       compliance_(mapping.scale * mapping.scale / options.grip_stiffness),
-      fit_steps_(fit_steps(options.servo_rate)) {
+      page_(std::move(page), options) {
   const double dry_friction = capabilities.coulomb_friction + options.paper.friction.coefficient * usual_pressure;
   hidden_way_ = mapping.scale * dry_friction / options.grip_stiffness;
   hidden_motion_ = std::max(2.0 * hidden_way_, sensor_noise * mapping.scale);

@@ -87,13 +87,18 @@ class StrokeSequencer {
   bool keeps_hold() const noexcept;
   bool is_guided() const noexcept;
 
-  PreparedPage page_;
+  // First what every tick reads, in few cache lines.
   StrokeOptions stroke_;
   StrokeTolerances tolerances_;
   double box_hysteresis_;      ///< [em]
   bool lift_between_strokes_;  ///< ContactOptions
   bool leads_to_start_;        ///< guidance leads to the start
   bool lets_go_;               ///< guidance lets go of a pen that is astray
+  bool in_doubt_ = false;      ///< perhaps the due stroke was written
+  bool passed_end_ = false;    ///< the pen was at the end, having written enough
+  bool inside_box_ = false;
+  Look look_ = Look::none;
+  int fit_steps_;         ///< a tick: one at 1 kHz, more at lower rates
   MotionMapping mapping_;
   double hidden_way_;     ///< how far dry friction keeps the pen short of where a usual hand means to be [m, page]
   double hidden_motion_;  ///< smaller ones need not be the hand's [m, page]
@@ -101,16 +106,12 @@ class StrokeSequencer {
   PreparedCharacter* character_ = nullptr;  ///< the one of `page_` to be written; null once all are
   PreparedStroke* due_ = nullptr;           ///< its stroke that is due; the last once all are written
   Point hand_ = Point::Zero();              ///< where the hand means to be, in the writing state [m, page]
-  int fit_steps_;                           ///< a tick: one at 1 kHz, more at lower rates
-  Look look_ = Look::none;
-  bool passed_end_ = false;                 ///< the pen was at the end, having written enough
-  double passed_end_at_ = 0.0;              ///< since when [s]
-  bool in_doubt_ = false;                   ///< perhaps the due stroke was written
-  double lifted_at_ = 0.0;                  ///< since when [s]
-  Point doubted_down_ = Point::Zero();      ///< where the pen was put down for it [m, page]
-  StrokeStart rest_;                        ///< of it, where the pen left it
-  bool inside_box_ = false;
   WriterState writer_;
+  double passed_end_at_ = 0.0;          ///< since when `passed_end_` [s]
+  double lifted_at_ = 0.0;              ///< since when `in_doubt_` [s]
+  Point doubted_down_ = Point::Zero();  ///< where the pen was put down for the stroke in doubt [m, page]
+  StrokeStart rest_;                    ///< of it, where the pen left it
+  PreparedPage page_;
   // The largest, last: see apart().
   Attempt attempt_;  ///< to write the due stroke
   Attempt next_;     ///< the same pen-down, were the next one meant

@@ -64,7 +64,7 @@ class ActiveStroke {
   StrokePlace at(double arc) const noexcept;
 
   /// First point of the stroke [m, page].
-  const Point& start() const noexcept { return parts_.front().element.origin(); }
+  const Point& start() const noexcept { return start_; }
   /// Last point of the stroke [m, page].
   Point end() const noexcept { return parts_.back().end.point; }
   /// Attraction factor at the start.
@@ -93,6 +93,7 @@ class ActiveStroke {
 
   std::vector<Part> parts_;
   double em_ = 0.0;                     ///< [m]
+  Point start_ = Point::Zero();         ///< of the first element, of which a tick may need nothing else [m]
   Point start_offset_ = Point::Zero();  ///< from the start of the stroke to where the pen began [m]
   int active_ = 0;                      ///< element being written; element_count() once finished
   double arc_ = 0.0;                    ///< arc length of the last closest point, within the active element
