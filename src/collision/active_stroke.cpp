@@ -110,8 +110,8 @@ void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
 [[gnu::always_inline]] inline bool ActiveStroke::passes(const Point& tip, const StrokeContact& contact,
                                                         const StrokeOptions& options) const noexcept {
   const Part& here = part(contact.element);
-  if (is_printed(options.rules)) return here.end.signed_distance(tip) > 0.0;
-  if (contact.weight < min_weight) return false;
+  if (is_printed(options.rules)) [[unlikely]] return here.end.signed_distance(tip) > 0.0;
+  if (contact.weight < min_weight) [[unlikely]] return false;
   const double length = here.element.length();
   const double tolerance = std::min(plane_tolerance * em_, plane_tolerance_share * length);
   // The pen must also be near the feature point along the stroke: a plane crosses other parts of the same stroke too.
@@ -144,7 +144,7 @@ void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
 
 StrokeContact ActiveStroke::update(const Point& tip, const StrokeOptions& options) noexcept {
   StrokeContact contact = locate(tip, options);
-  if (!is_finished() && passes(tip, contact, options)) pass_feature(tip, options, contact);
+  if (!is_finished() && passes(tip, contact, options)) [[unlikely]] pass_feature(tip, options, contact);
   parameter_ = contact.closest.parameter;
   // A pen at or beyond the edge of the constraint space makes no progress: a stroke cannot be finished without being
   // written.

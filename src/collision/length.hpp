@@ -14,7 +14,7 @@ namespace calligraphy {
 /// correctly rounded everywhere. Infinite or NaN if a coordinate is.
 inline double length(const Point& vector) noexcept {
   const double square = vector.squaredNorm();
-  if (square > 0x1p-900 && square < std::numeric_limits<double>::infinity()) return std::sqrt(square);
+  if (square > 0x1p-900 && square < std::numeric_limits<double>::infinity()) [[likely]] return std::sqrt(square);
   const double scale = vector.cwiseAbs().maxCoeff() < 1.0 ? 0x1p600 : 0x1p-600;
   return (scale * vector).norm() / scale;
 }

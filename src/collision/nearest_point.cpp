@@ -29,7 +29,7 @@ constexpr double furthest_query = 1e100;
   const Point from_start = query - line.origin;
   const bool is_point = line.length == 0.0;
   const double furthest = is_point ? std::numeric_limits<double>::max() : furthest_query * line.length;
-  if (!(std::abs(from_start.x()) <= furthest && std::abs(from_start.y()) <= furthest)) {  // true for NaN
+  if (!(std::abs(from_start.x()) <= furthest && std::abs(from_start.y()) <= furthest)) [[unlikely]] {  // true for NaN
     closest.point = line.point(range.begin);
     closest.distance = std::numeric_limits<double>::infinity();
     closest.status = NearestPointStatus::not_finite;
@@ -50,6 +50,13 @@ ParameterRange clamped(const ParameterRange& range) {
   return {begin, end};
 }
 
+/// Not inlined, lest g++ unroll the recursion.
+[[gnu::noinline]] NearestPoint nearest_within_clamped(const StrokeElement& element, const Point& query,
+                                                      const NearestPointOptions& options, const ParameterRange& range,
+                                                      double start) {
+  return nearest_point(element, query, options, clamped(range), start);
+}
+
 }  // namespace
 
 const char* to_string(NearestPointMethod method) noexcept {
@@ -66,7 +73,7 @@ void validate(const NearestPointOptions& options) {
 
 NearestPoint nearest_point(const StrokeElement& element, const Point& query, const NearestPointOptions& options,
                            const ParameterRange& range, double start) noexcept {
-  if (!usable(range)) return nearest_point(element, query, options, clamped(range), start);
+  if (!usable(range)) [[unlikely]] return nearest_within_clamped(element, query, options, range, start);
   const CurveElement* const curve = element.curve();
   if (!curve) return on_line(*element.line(), query, range);
   if (options.method == NearestPointMethod::exact) {

@@ -74,26 +74,26 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
   sent_.viscous.z() = paper.viscous.z();
 
   double max_force = ForceLimiter::no_limit;
-  if (thermal_.peak > 0.0) {
+  if (thermal_.peak > 0.0) [[unlikely]] {
     max_force = thermal_.max_force();
     sent_.is_warm = thermal_.is_warm() && dot(force, force) > max_force * max_force;
   }
-  if (observes_energy_) {
+  if (observes_energy_) [[unlikely]] {
     account(pen);
     if (guidance.power > 0.0) energy_.earn(guidance.power * std::clamp(pen.time - time_, 0.0, period_));
     time_ = pen.time;
     force = affordable(pen, shortened(force, std::min(limiter_.peak, max_force)));
     max_force = std::min(max_force, energy_.max_force());
   }
-  if (!is_trusted) {
+  if (!is_trusted) [[unlikely]] {
     sent_.page = limiter_.release(sent_.page);
-  } else if (limiter_.reaches(sent_.page, force, max_force)) {
+  } else if (limiter_.reaches(sent_.page, force, max_force)) [[likely]] {
     sent_.page = force;
   } else {
     sent_.page = limiter_.next(sent_.page, force, allowance(pen), max_force);
   }
-  if (observes_energy_) energy_.sent(sent_.page);
-  if (thermal_.peak > 0.0) {
+  if (observes_energy_) [[unlikely]] energy_.sent(sent_.page);
+  if (thermal_.peak > 0.0) [[unlikely]] {
     thermal_.held(norm(sent_.page), period_);
     sent_.heat = thermal_.heat;
   }

@@ -43,7 +43,7 @@ void Guidance::restart() noexcept {
 }
 
 const GuidanceForce& Guidance::update(PenState& pen, const WriterState& writer, const Point& sent) noexcept {
-  if (pen.status != TickStatus::ok) {
+  if (pen.status != TickStatus::ok) [[unlikely]] {
     if (!pen.holds_force) release();
     return force_;
   }
@@ -56,7 +56,7 @@ const GuidanceForce& Guidance::update(PenState& pen, const WriterState& writer, 
   force_.assistance = assistance_.factor();
   pull(pen, writer);
   force_.total = faded(pen, writer, sent);
-  if (pen.status != TickStatus::ok) {  // the law has failed: its next force fades in again
+  if (pen.status != TickStatus::ok) [[unlikely]] {  // the law has failed: its next force fades in again
     release();
     fade_ = 0.0;
   }
@@ -79,7 +79,7 @@ void Guidance::pull(PenState& pen, const WriterState& writer) noexcept {
   if (input_.writing ? writer.guided : writer.rests) resistance = contact.weight;
   const double slack = options.wrong_way_slack * writer.em;
   const bool resisted = resistance > 0.0 && contact.backwards > slack;
-  if (resisted) {
+  if (resisted) [[unlikely]] {
     force_.wrong_way = resistance * wrong_way_force(options.wrong_way_stiffness, options.wrong_way_limit, slack,
                                                     contact.backwards, contact.closest.tangent);
   }
@@ -90,7 +90,7 @@ void Guidance::pull(PenState& pen, const WriterState& writer) noexcept {
     return;
   }
   lead(writer);
-  if (effective_.traits.sees_stroke) show_stroke(pen, writer);
+  if (effective_.traits.sees_stroke) [[unlikely]] show_stroke(pen, writer);
   const GuidanceTerms terms = ask(pen, writer);
   force_.attraction = effective_.law_share * terms.spring;
   force_.viscous = terms.damper;
@@ -181,7 +181,7 @@ Point Guidance::faded(const PenState& pen, const WriterState& writer, const Poin
   guided_ = writer.guided;
   const bool lets_go = has_event(writer.events, ends) || (changed && !guided_);
   const Point tip = pen.tip.head<2>(), velocity = pen.velocity.head<2>();
-  if (lets_go || changed || has_event(writer.events, jumps)) {
+  if (lets_go || changed || has_event(writer.events, jumps)) [[unlikely]] {
     const double seconds = lets_go ? options.fade_out : options.fade_in;
     released_.take_over(sent, tip, velocity, effective_.guidance_stiffness(1.0), options.damping, seconds / period_);
     fade_ = 0.0;
@@ -195,7 +195,7 @@ Point Guidance::faded(const PenState& pen, const WriterState& writer, const Poin
     force *= smooth_step(fade_);
     force_.normal *= smooth_step(fade_);
   }
-  if (released_normal_ != 0.0) {
+  if (released_normal_ != 0.0) [[unlikely]] {
     normal_left_ = std::max(0.0, normal_left_ - normal_step_);
     force_.normal += smooth_step(normal_left_) * released_normal_;
     if (normal_left_ == 0.0) released_normal_ = 0.0;

@@ -88,7 +88,7 @@ void HapticRenderer::restart() noexcept {
 /// Inlines everything that it calls in this component, except for what happens once per stroke (gnu::noinline): calls
 /// of small functions took a fifth of a tick.
 [[gnu::flatten]] const HapticTick& HapticRenderer::update(const DeviceState& sample) noexcept {
-  if (!stages_) return nothing;
+  if (!stages_) [[unlikely]] return nothing;
   Stages& stages = *stages_;
   ForceOutput& output = apart(stages.output);
   const SentForce& sent = output.last();

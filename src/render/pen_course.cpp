@@ -61,11 +61,11 @@ PenCourse::Step PenCourse::step(const Eigen::Vector3d& position, double elapsed)
 }
 
 PenCourse::Place PenCourse::classify(const Step& step) const noexcept {
-  if (step.is_too_far) return Place::impossible;
+  if (step.is_too_far) [[unlikely]] return Place::impossible;
   // Mean velocities over two intervals are those at their midpoints.
   const double margin = noise_ + max_acceleration_ * 0.5 * (took_ + step.passed) * step.passed;
   const double usual = usual_share * margin;
-  if (step.square <= usual * usual) return Place::expected;
+  if (step.square <= usual * usual) [[likely]] return Place::expected;
   const Eigen::Vector3d per_second = way_ * (1.0 / took_);
   if (square_beside(step.way, per_second * step.passed) <= usual * usual) return Place::expected;
   const Eigen::Vector3d farthest = per_second * (step.passed + jitter * period_);

@@ -37,7 +37,7 @@ constexpr double unfelt_force = 0.5, frictions = 4.0;
 /// False for NaN too.
 bool is_on_page(const Eigen::Vector3d& position) noexcept {
   constexpr double most = PenSensor::max_coordinate;
-  if (dot(position, position) <= most * most) return true;
+  if (dot(position, position) <= most * most) [[likely]] return true;
   return std::abs(position.x()) <= most && std::abs(position.y()) <= most && std::abs(position.z()) <= most;
 }
 
@@ -73,10 +73,10 @@ void PenSensor::restart() noexcept {
 PenState& PenSensor::update(const DeviceState& sample, const Eigen::Vector3d& sent) noexcept {
   pen_.time = sample.time;
   pen_.force = sample.force;
-  if (counts_pauses_) count_ticks(sample);
+  if (counts_pauses_) [[unlikely]] count_ticks(sample);
   pen_.status = accept(sample, sent);
   unsure_for_ = std::max(0.0, unsure_for_ - period_);
-  if (pen_.status == TickStatus::ok) {
+  if (pen_.status == TickStatus::ok) [[likely]] {
     unseen_ = 0;
     pen_.holds_force = false;
     return pen_;
@@ -103,22 +103,22 @@ void PenSensor::count_ticks(const DeviceState& sample) noexcept {
 }
 
 TickStatus PenSensor::accept(const DeviceState& sample, const Eigen::Vector3d& sent) noexcept {
-  if (sample.status != DeviceStatus::ok && sample.status != DeviceStatus::warm_motors) {
+  if (sample.status != DeviceStatus::ok && sample.status != DeviceStatus::warm_motors) [[unlikely]] {
     return sample.status == DeviceStatus::stale ? TickStatus::stale : TickStatus::device_fault;
   }
   const Eigen::Vector3d position = mapping_.to_page(sample.position);
-  if (!is_on_page(position) || !std::isfinite(sample.time)) return TickStatus::bad_sample;
-  if (is_leaping(sample.time)) return TickStatus::bad_clock;
+  if (!is_on_page(position) || !std::isfinite(sample.time)) [[unlikely]] return TickStatus::bad_sample;
+  if (is_leaping(sample.time)) [[unlikely]] return TickStatus::bad_clock;
   // A clock that stands or runs backwards must not turn a small motion into a fast one.
   const double passed = sample.time - time_;
   double elapsed = passed > period_ ? passed : period_;
   if (max_standstill_ < std::numeric_limits<double>::infinity() &&
-      is_frozen(sample.position, is_finite(sample.force) ? sample.force : sent)) {
+      is_frozen(sample.position, is_finite(sample.force) ? sample.force : sent)) [[unlikely]] {
     return TickStatus::bad_sample;
   }
-  if (!is_plausible(position, passed)) return TickStatus::bad_sample;
+  if (!is_plausible(position, passed)) [[unlikely]] return TickStatus::bad_sample;
   if (!has_sample_) elapsed = period_;
-  if (has_sample_ && (passed > max_gap_ || static_cast<double>(unseen_) * period_ >= max_gap_)) {
+  if (has_sample_ && (passed > max_gap_ || static_cast<double>(unseen_) * period_ >= max_gap_)) [[unlikely]] {
     velocity_.restart();  // the way since then was not seen
     unsure_for_ = max_unsure_time;
   }
@@ -153,13 +153,13 @@ bool PenSensor::is_frozen(const Eigen::Vector3d& position, const Eigen::Vector3d
 /// A pen cannot jump: a sample off its course is rejected. Once rejected samples form a course of their own, the pen
 /// really is elsewhere: either it did not move there, or it is unknown where it was.
 bool PenSensor::is_plausible(const Eigen::Vector3d& position, double elapsed) noexcept {
-  if (!has_sample_) {
+  if (!has_sample_) [[unlikely]] {
     believed_.begin(position, false);
     return true;
   }
   const PenCourse::Step step = believed_.step(position, elapsed);
   const PenCourse::Place place = believed_.classify(step);
-  if (place != PenCourse::Place::impossible) {
+  if (place != PenCourse::Place::impossible) [[likely]] {
     believed_.add(position, step);
     if (place == PenCourse::Place::possible) unsure_for_ = std::max(unsure_for_, jerk_time);
   } else {
@@ -182,7 +182,7 @@ bool PenSensor::is_plausible(const Eigen::Vector3d& position, double elapsed) no
 }
 
 void PenSensor::move_device_point(const DeviceState& sample, const Eigen::Vector3d& position) noexcept {
-  if (is_printed_ && has_sample_) {
+  if (is_printed_ && has_sample_) [[unlikely]] {
     const double elapsed = std::clamp(sample.time - time_, 0.0, max_integration_time);
     const Eigen::Vector3d velocity = mapping_.velocity_to_page(sample.velocity);
     const bool is_measured = norm(velocity) <= max_speed_;  // false for NaN too

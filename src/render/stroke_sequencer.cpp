@@ -96,21 +96,21 @@ const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
   using State = InteractionState;
   const Point tip = pen.tip.head<2>();
   writer_.events = TickEvent::none;
-  if (pen.status != TickStatus::ok) {
+  if (pen.status != TickStatus::ok) [[unlikely]] {
     if (look_ != Look::none) step_fit();  // samples may come less often than ticks
     return writer_;
   }
-  if (look_ == Look::decides) decide(pen);
-  if (in_doubt_) settle_doubt(pen);
+  if (look_ == Look::decides) [[unlikely]] decide(pen);
+  if (in_doubt_) [[unlikely]] settle_doubt(pen);
   const TransitionInput input = advance(pen);
   const State before = writer_.state, after = next_state(before, input);
   writer_.state = after;
-  if (before == State::separation && after != State::separation) writer_.events |= TickEvent::contact;
-  if (before == State::writing && after != State::writing) {
+  if (before == State::separation && after != State::separation) [[unlikely]] writer_.events |= TickEvent::contact;
+  if (before == State::writing && after != State::writing) [[unlikely]] {
     input.stroke_finished ? finish_stroke(tip) : leave_stroke(pen);
   }
-  if (before != State::writing && after == State::writing) start_stroke(pen);
-  if (before != State::separation && after == State::separation) lift();
+  if (before != State::writing && after == State::writing) [[unlikely]] start_stroke(pen);
+  if (before != State::separation && after == State::separation) [[unlikely]] lift();
   writer_.to_start = all_written() ? Point(Point::Zero()) : Point(due_->geometry.start() - tip);
   writer_.attraction = after == State::writing ? writer_.contact.attraction : due_->geometry.first_attraction();
   writer_.phase = phase(tip);
@@ -121,14 +121,14 @@ const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
 TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
   TransitionInput input;
   input.contact = pen.contact;
-  if (all_written()) return input;
+  if (all_written()) [[unlikely]] return input;
 
   const Point tip = pen.tip.head<2>();
   const bool writing = writer_.state == InteractionState::writing;
   const Eigen::AlignedBox2d& box = character_->box;
-  if (is_within(box, tip)) {
+  if (is_within(box, tip)) [[likely]] {
     inside_box_ = true;
-  } else if (inside_box_) {
+  } else if (inside_box_) [[unlikely]] {
     const double hysteresis = box_hysteresis_ * writer_.em * (writing ? writing_hysteresis : 1.0);
     inside_box_ = box.exteriorDistance(tip) <= hysteresis;
   }
@@ -231,13 +231,13 @@ void StrokeSequencer::write_on(const PenState& pen) noexcept {
 /// At its end, once its shape is known. Nearly any small motion passes the end of a dot: that is looked at a little
 /// later, or where the pen leaves it.
 bool StrokeSequencer::is_finished(const PenState& pen) noexcept {
-  if (tolerances_.coverage == 0.0) return writer_.contact.finished;
-  if (!pen.on_paper) {
+  if (tolerances_.coverage == 0.0) [[unlikely]] return writer_.contact.finished;
+  if (!pen.on_paper) [[unlikely]] {
     look_for(Look::at_lift);
     return false;
   }
   if (look_ == Look::at_lift) look_ = Look::none;  // the pen was bouncing
-  if (!due_->follower.is_at_end(hidden_way_) || !due_->follower.accepts(2.0 * hidden_way_)) return false;
+  if (!due_->follower.is_at_end(hidden_way_) || !due_->follower.accepts(2.0 * hidden_way_)) [[likely]] return false;
   if (!passed_end_) passed_end_at_ = pen.time;
   passed_end_ = true;
   if (due_->shape.length < longest_dot && pen.time - passed_end_at_ < dot_time) return false;

@@ -57,18 +57,18 @@ class VelocityEstimator {
 };
 
 inline const Eigen::Vector3d& VelocityEstimator::update(const Eigen::Vector3d& position, double elapsed) noexcept {
-  if (!has_position_) {
+  if (!has_position_) [[unlikely]] {
     if (!is_finite(position)) return velocity_;
     has_position_ = true;
   } else {
-    if (!(elapsed > 0.0 && elapsed < std::numeric_limits<double>::infinity())) return velocity_;
+    if (!(elapsed > 0.0 && elapsed < std::numeric_limits<double>::infinity())) [[unlikely]] return velocity_;
     since_position_ += elapsed;
     const Eigen::Vector3d difference = (position - position_) * (1.0 / since_position_);
     // The old estimate decays over the interval whose share is known, then over the excess of this interval.
-    if (!(std::abs(since_position_ - share_time_) * cutoff_ <= max_jitter)) learn_share();
+    if (!(std::abs(since_position_ - share_time_) * cutoff_ <= max_jitter)) [[unlikely]] learn_share();
     const double share = share_ + (1.0 - share_) * rise(cutoff_ * (since_position_ - share_time_));
     const Eigen::Vector3d smoothed = velocity_ + share * (difference - velocity_);
-    if (is_finite(smoothed)) {
+    if (is_finite(smoothed)) [[likely]] {
       velocity_ = smoothed;
     } else if (!is_finite(position)) {
       return velocity_;  // otherwise the difference has overflowed
