@@ -93,9 +93,7 @@ void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
   if (!is_printed(options.rules)) {
     range = {element.parameter_at(arc_ - window * em_), element.parameter_at(arc_ + window * em_)};
   }
-  StrokeContact contact;
-  contact.element = index;
-  contact.closest = nearest_point(element, tip, options.nearest, range, parameter_);
+  StrokeContact contact{index, nearest_point(element, tip, options.nearest, range, parameter_)};
   contact.weight = guidance_weight(options.space, em_, element, tip, contact.closest, options.rules);
   const double arc = element.arc_length(contact.closest.parameter);
   contact.arc = here.first_arc + arc;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <new>
 #include <utility>
 
 #include "collision/length.hpp"
@@ -218,7 +219,8 @@ void StrokeSequencer::follow(Attempt& attempt, int stroke, const PenState& pen) 
 
 void StrokeSequencer::write_on(const PenState& pen) noexcept {
   const Point tip = pen.tip.head<2>();
-  writer_.contact = due_->geometry.update(tip, stroke_);
+  // Made where it stays: a copy takes five more cache lines, of code and of data.
+  ::new (&writer_.contact) StrokeContact(due_->geometry.update(tip, stroke_));
   if (writer_.contact.passed_feature) writer_.events |= TickEvent::feature_passed;
   hand_ = hand(pen);
   if (pen.on_paper) {
