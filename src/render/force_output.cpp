@@ -34,11 +34,11 @@ EnergyBudget energy_budget(const RendererOptions& options, const Capabilities& c
 ForceOutput::ForceOutput(const RendererOptions& options, const Capabilities& capabilities, const MotionMapping& mapping,
                          double max_guidance_stiffness, bool has_own_law)
     : mapping_(mapping),
+      observes_energy_(options.energy.limited()),
       period_(1.0 / options.servo_rate),
       in_plane_{max_guidance_stiffness + options.guidance.wrong_way_stiffness, options.guidance.damping},
       normal_{options.paper.stiffness, options.paper.damping},
-      paper_onset_(options.paper.onset),
-      observes_energy_(options.energy.limited()) {
+      paper_onset_(options.paper.onset) {
   require(capabilities.peak_force > 0.0, "peak force of the device", capabilities.peak_force, "N", "above 0");
   const FrictionOptions& friction = options.paper.friction;
   if (friction.coefficient > 0.0) {

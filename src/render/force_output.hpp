@@ -59,15 +59,15 @@ class ForceOutput {
   void account(const PenState& pen) noexcept;
   Eigen::Vector3d affordable(const PenState& pen, const Eigen::Vector3d& wanted) noexcept;
 
+  SentForce sent_;
   MotionMapping mapping_;
-  double period_;  ///< [s]
-  Impedance in_plane_, normal_;
-  double paper_onset_;  ///< depth over which the damper of the paper sets in [m]
   ForceLimiter limiter_;
   bool observes_energy_;
-  double time_ = 0.0;      ///< of the previous sample [s]
   ThermalBudget thermal_;  ///< peak 0: disabled
-  SentForce sent_;
+  double time_ = 0.0;      ///< of the previous sample [s]
+  double period_;          ///< [s]
+  Impedance in_plane_, normal_;
+  double paper_onset_;     ///< depth over which the damper of the paper sets in [m]
   EnergyBudget energy_;  ///< the largest, last: see apart()
 };
 
