@@ -35,13 +35,13 @@ class Paper {
   void press(const PenState& pen) noexcept;
   void rub(const Point& point, double pressure) noexcept;
 
+  PaperForce force_;
   PaperOptions options_;
   double period_;       ///< [s]
   double rate_filter_;  ///< coefficient of the low-pass on the rate of the friction spring
   PaperFriction friction_;
   Point spring_ = Point::Zero();       ///< of friction, in the previous tick [N, page]
   Point spring_rate_ = Point::Zero();  ///< its filtered change [N/s, page]
-  PaperForce force_;
 };
 
 }  // namespace calligraphy

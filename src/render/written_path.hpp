@@ -41,12 +41,12 @@ class WrittenPath {
   [[gnu::noinline]] void add_chord() noexcept;
   [[gnu::noinline]] void keep() noexcept;
 
+  std::size_t count_ = 1;  ///< of the kept points
+  double apart_ = 0.0, chord_ = 0.0, step_ = 0.0;
+  Point chord_from_ = Point::Zero(), step_from_ = Point::Zero();
+  double way_ = 0.0, chords_ = 0.0;
   std::array<Point, capacity + 1> points_;  ///< kept ones, and the last one
   std::array<double, capacity> arcs_;       ///< of the kept ones
-  std::size_t count_ = 1;                   ///< of these
-  Point chord_from_ = Point::Zero(), step_from_ = Point::Zero();
-  double apart_ = 0.0, chord_ = 0.0, step_ = 0.0;
-  double way_ = 0.0, chords_ = 0.0;
 };
 
 }  // namespace calligraphy
