@@ -37,16 +37,20 @@ inline constexpr double min_speed = 1e-7;
   return gain > tie || (gain >= -tie && next.t < best.t);
 }
 
+/// Where the velocity is too small to show a direction. Not inlined, for the sake of the other case.
+[[gnu::noinline]] inline NearestPoint answer_at_rest(const CurveElement& curve, Pair point, Pair offset, double t,
+                                                     NearestPointStatus status) {
+  return {t, Point(point[0], point[1]), curve.size * std::sqrt(dot(offset, offset)), curve.tangent(t), status};
+}
+
 [[gnu::always_inline]] inline NearestPoint curve_answer(const CurveElement& curve, const Candidate& at,
                                                         NearestPointStatus status) {
   const double square = dot(at.velocity, at.velocity), speed = std::sqrt(square);
   const Pair point = pair(curve.origin) + at.place * curve.size;
+  if (!(speed > min_speed)) [[unlikely]] return answer_at_rest(curve, point, at.offset, at.t, status);
   const Pair tangent = at.velocity * (speed * (1.0 / square));
-  NearestPoint answer{at.t, Point(point[0], point[1]), curve.size * std::sqrt(dot(at.offset, at.offset)),
-                      Point(tangent[0], tangent[1]), status};
-  if (!(speed > min_speed)) [[unlikely]]
-    answer.tangent = curve.tangent(at.t);
-  return answer;
+  return {at.t, Point(point[0], point[1]), curve.size * std::sqrt(dot(at.offset, at.offset)),
+          Point(tangent[0], tangent[1]), status};
 }
 
 }  // namespace calligraphy

@@ -47,11 +47,24 @@ template <int Degree>
 
 /// For a minimum that the first steps missed: the same steps from where they ended, or from the end of its cell.
 template <int Degree>
-[[gnu::noinline]] Candidate polish_again(const CurveElement& curve, Pair query, int change, double t,
-                                         Residue& residue) {
+[[gnu::always_inline]] inline Candidate polish_again(const CurveElement& curve,
+                                                     const SlopePolynomial<Degree>& polynomial, Pair query, int change,
+                                                     double t, Residue& residue) {
   const ParameterRange cell = cell_of<Degree>(change);
-  const double start = std::clamp(t, cell.begin, cell.end);
-  return polish<Degree>(curve, SlopePolynomial<Degree>(curve, query), query, start, residue);
+  return polish<Degree>(curve, polynomial, query, std::clamp(t, cell.begin, cell.end), residue);
+}
+
+/// The result of that for a single minimum on the whole curve.
+template <int Degree>
+[[gnu::noinline]] NearestPoint second_attempt(const CurveElement& curve, Pair query, int change, double t,
+                                              double tolerance, const ParameterRange& range) {
+  Residue residue;
+  const SlopePolynomial<Degree> polynomial(curve, query);
+  const Candidate found = polish_again<Degree>(curve, polynomial, query, change, t, residue);
+  if (!residue.converged(curve, allowed_error<Degree>(tolerance))) {
+    return search_or_refuse(curve, query, tolerance, range);
+  }
+  return answer_within<Degree>(curve, found, query, tolerance, range);
 }
 
 /// For several sign changes on the whole curve, all certain: each cell with one change from - to + contains one
@@ -69,7 +82,7 @@ template <int Degree>
     const double start = middles<Degree>[static_cast<std::size_t>(change + 1)];
     Residue residue;
     Candidate found = polish<Degree>(curve, polynomial, query, start, residue);
-    if (!residue.converged(curve, allowed)) found = polish_again<Degree>(curve, query, change, found.t, residue);
+    if (!residue.converged(curve, allowed)) found = polish_again<Degree>(curve, polynomial, query, change, found.t, residue);
     if (!(residue.converged(curve, allowed) && in_cell<Degree>(change, found.t))) {
       return search_minima(curve, query, tolerance, range);
     }
@@ -98,8 +111,7 @@ template <int Degree>
       if (residue.converged(curve, allowed)) [[likely]] {
         return answer_within<Degree>(curve, found, query, tolerance, range);
       }
-      const Candidate again = polish_again<Degree>(curve, query, signs.first_negatives() - 1, found.t, residue);
-      if (residue.converged(curve, allowed)) return answer_within<Degree>(curve, again, query, tolerance, range);
+      return second_attempt<Degree>(curve, query, signs.first_negatives() - 1, found.t, tolerance, range);
     } else if (range.begin <= 0.0 && range.end >= 1.0) {
       return nearest_of_several<Degree>(curve, signs, query, tolerance, range);
     }

@@ -10,8 +10,6 @@
 
 namespace calligraphy {
 
-[[gnu::always_inline]] inline double sum(Pair pair) { return pair[0] + pair[1]; }
-
 /// A larger step loses digits, and seldom leads near the zero.
 inline constexpr double furthest_step = 0.1;
 

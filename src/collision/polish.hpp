@@ -113,10 +113,10 @@ template <int Degree, typename Vector>
                                                         const SlopePolynomial<Degree>& polynomial, Vector query,
                                                         double t, double bend, Residue& residue) {
   CurvePoint<Vector> at = candidate<Degree>(curve, query, t);
-  const Vector acceleration = second_derivative<Degree, Vector>(curve, t);
+  const Vector acceleration = second_derivative<Degree, Vector>(curve, t), half = acceleration * 0.5;
   const double slope = polynomial.slope(t);
   const double step = dot(at.offset, at.velocity) * (1.0 / slope);
-  const Vector moved = (at.velocity - acceleration * (0.5 * step)) * step;
+  const Vector moved = (at.velocity - half * step) * step;
   at.t = at.t - step;
   at.place = at.place - moved;
   at.offset = at.offset - moved;

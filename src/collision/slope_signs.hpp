@@ -116,13 +116,14 @@ template <std::size_t Count>
   const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const __m256 all_x = _mm256_set1_ps(x), all_y = _mm256_set1_ps(y);
   const __m256 magnitude = _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff));
-  __m256 least = _mm256_set1_ps(3e38F);
+  __m256 least;
   __m256i values[6];
   for (std::size_t i = 0; i < 6; ++i) {
     const __m256 value = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(all_x, _mm256_loadu_ps(&ordinates.x[8 * i])),
                                                      _mm256_mul_ps(all_y, _mm256_loadu_ps(&ordinates.y[8 * i]))),
                                        _mm256_loadu_ps(&ordinates.constant[8 * i]));
-    least = _mm256_min_ps(least, _mm256_and_ps(value, magnitude));
+    const __m256 of_value = _mm256_and_ps(value, magnitude);
+    least = i == 0 ? of_value : _mm256_min_ps(least, of_value);
     values[i] = _mm256_castps_si256(value);
   }
   const __m256i first =
