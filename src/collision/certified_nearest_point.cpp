@@ -102,8 +102,8 @@ template <int Degree>
                                                       SlopeSigns<CurveElement::max_ordinates> signs, Pair query,
                                                       double tolerance, const ParameterRange& range) {
   if (signs.certain) {
-    if (signs.changes() == 0) return end_of<Degree>(curve, signs.first_negative(), query, range);
-    if (signs.one_minimum()) {
+    if (signs.ascending()) {
+      if (!signs.differ()) return end_of<Degree>(curve, signs.first_negative(), query, range);
       const double start = middles<Degree>[static_cast<std::size_t>(signs.first_negatives())];
       const double allowed = allowed_error<Degree>(tolerance);
       Residue residue;

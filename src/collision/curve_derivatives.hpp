@@ -38,11 +38,10 @@ template <int Degree, typename Vector = Pair>
 }
 
 template <int Degree, typename Vector = Pair>
-[[gnu::always_inline]] inline Vector second_derivative(const CurveElement& curve, double t) {
-  Vector sum = vector_of<Vector>(curve.coefficients[Degree - 1]) * static_cast<double>(Degree * (Degree - 1));
-  for (std::size_t k = Degree - 1; k-- > 1;) {
-    sum = sum * t + vector_of<Vector>(curve.coefficients[k]) * static_cast<double>((k + 1) * k);
-  }
+[[gnu::always_inline]] inline Vector half_second_derivative(const CurveElement& curve, double t) {
+  constexpr auto factor = [](std::size_t k) { return 0.5 * static_cast<double>((k + 1) * k); };
+  Vector sum = vector_of<Vector>(curve.coefficients[Degree - 1]) * factor(Degree - 1);
+  for (std::size_t k = Degree - 1; k-- > 1;) sum = sum * t + vector_of<Vector>(curve.coefficients[k]) * factor(k);
   return sum;
 }
 

@@ -21,7 +21,7 @@ template <int Degree>
   // The curve around t, by powers.
   const Pair place = calligraphy::place<Degree>(curve, t), offset = place - query;
   std::array<Pair, Degree + 1> c = {Pair{}, first_derivative<Degree>(curve, t),
-                                    second_derivative<Degree>(curve, t) * 0.5};
+                                    half_second_derivative<Degree>(curve, t)};
   if constexpr (Degree >= 3) c[3] = pair(curve.coefficients[2]);
   if constexpr (Degree == 4) {
     c[4] = pair(curve.coefficients[3]);

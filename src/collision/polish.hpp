@@ -113,14 +113,14 @@ template <int Degree, typename Vector>
                                                         const SlopePolynomial<Degree>& polynomial, Vector query,
                                                         double t, double bend, Residue& residue) {
   CurvePoint<Vector> at = candidate<Degree>(curve, query, t);
-  const Vector acceleration = second_derivative<Degree, Vector>(curve, t), half = acceleration * 0.5;
+  const Vector half_acceleration = half_second_derivative<Degree, Vector>(curve, t);
   const double slope = polynomial.slope(t);
   const double step = dot(at.offset, at.velocity) * (1.0 / slope);
-  const Vector moved = (at.velocity - half * step) * step;
+  const Vector moved = (at.velocity - half_acceleration * step) * step;
   at.t = at.t - step;
   at.place = at.place - moved;
   at.offset = at.offset - moved;
-  at.velocity = at.velocity - acceleration * step;
+  at.velocity = at.velocity - (half_acceleration + half_acceleration) * step;
   residue = {step, slope, bend};
   return at;
 }

@@ -32,11 +32,12 @@ struct SlopeSigns {
   std::uint64_t minima() const { return changes() & negative; }
   /// Number of ordinates below zero before the first one that is not.
   int first_negatives() const { return std::countr_zero(~negative | (std::uint64_t{1} << Count)); }
+  /// No + comes before a -.
+  bool ascending() const { return (negative & (negative + 1)) == 0; }
+  /// There are both - and +.
+  bool differ() const { return negative - 1 < (std::uint64_t{1} << Count) - 2; }
   /// The signs are - up to one ordinate and + from the next one on.
-  bool one_minimum() const {
-    constexpr std::uint64_t all = (std::uint64_t{1} << Count) - 1;
-    return ((negative & (negative + 1)) == 0) & (negative - 1 < all - 1);
-  }
+  bool one_minimum() const { return ascending() & differ(); }
 };
 
 /// Signs of the ordinates, without those that rounding could flip.
@@ -116,19 +117,21 @@ template <std::size_t Count>
   const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const __m256 all_x = _mm256_set1_ps(x), all_y = _mm256_set1_ps(y);
   const __m256 magnitude = _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff));
-  __m256 least;
-  __m256i values[6];
-  for (std::size_t i = 0; i < 6; ++i) {
-    const __m256 value = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(all_x, _mm256_loadu_ps(&ordinates.x[8 * i])),
-                                                     _mm256_mul_ps(all_y, _mm256_loadu_ps(&ordinates.y[8 * i]))),
-                                       _mm256_loadu_ps(&ordinates.constant[8 * i]));
-    const __m256 of_value = _mm256_and_ps(value, magnitude);
-    least = i == 0 ? of_value : _mm256_min_ps(least, of_value);
-    values[i] = _mm256_castps_si256(value);
-  }
+  const auto eight = [&](std::size_t i) __attribute__((target("avx2"), always_inline)) {
+    return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(all_x, _mm256_loadu_ps(&ordinates.x[i])),
+                                       _mm256_mul_ps(all_y, _mm256_loadu_ps(&ordinates.y[i]))),
+                         _mm256_loadu_ps(&ordinates.constant[i]));
+  };
+  // No array of these, for which g++ would align the stack.
+  const __m256 a = eight(0), b = eight(8), c = eight(16), d = eight(24), e = eight(32), f = eight(40);
+  const __m256 least = _mm256_min_ps(
+      _mm256_min_ps(_mm256_min_ps(_mm256_and_ps(a, magnitude), _mm256_and_ps(b, magnitude)),
+                    _mm256_min_ps(_mm256_and_ps(c, magnitude), _mm256_and_ps(d, magnitude))),
+      _mm256_min_ps(_mm256_and_ps(e, magnitude), _mm256_and_ps(f, magnitude)));
   const __m256i first =
-      _mm256_packs_epi16(_mm256_packs_epi32(values[0], values[1]), _mm256_packs_epi32(values[2], values[3]));
-  const __m256i rest = _mm256_packs_epi32(values[4], values[5]);
+      _mm256_packs_epi16(_mm256_packs_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)),
+                         _mm256_packs_epi32(_mm256_castps_si256(c), _mm256_castps_si256(d)));
+  const __m256i rest = _mm256_packs_epi32(_mm256_castps_si256(e), _mm256_castps_si256(f));
   const __m128i last = _mm_packs_epi16(_mm256_castsi256_si128(rest), _mm256_extracti128_si256(rest, 1));
   const __m256 noise = _mm256_set1_ps(slope_noise(ordinates, x, y));
   SlopeSigns<CurveElement::max_ordinates> signs;
