@@ -114,8 +114,9 @@ template <std::size_t Count>
 
 [[gnu::target("avx2"), gnu::always_inline]] inline SlopeSigns<CurveElement::max_ordinates> slope_signs_avx2(
     const SlopeOrdinates<CurveElement::max_ordinates>& ordinates, Pair query) {
-  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
-  const __m256 all_x = _mm256_set1_ps(x), all_y = _mm256_set1_ps(y);
+  const __m128 single = _mm_cvtpd_ps(query), second = _mm_movehdup_ps(single);
+  const float x = _mm_cvtss_f32(single), y = _mm_cvtss_f32(second);
+  const __m256 all_x = _mm256_broadcastss_ps(single), all_y = _mm256_broadcastss_ps(second);
   const __m256 magnitude = _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff));
   const auto eight = [&](std::size_t i) __attribute__((target("avx2"), always_inline)) {
     return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(all_x, _mm256_loadu_ps(&ordinates.x[i])),
