@@ -37,7 +37,7 @@ inline constexpr double min_speed = 1e-7;
   return gain > tie || (gain >= -tie && next.t < best.t);
 }
 
-/// Where the velocity is too small to show a direction. Not inlined, for the sake of the other case.
+/// Where the velocity is too small to show a direction. Not inlined, so that the usual case needs no memory for a call.
 [[gnu::noinline]] inline NearestPoint answer_at_rest(const CurveElement& curve, Pair point, Pair offset, double t,
                                                      NearestPointStatus status) {
   return {t, Point(point[0], point[1]), curve.size * std::sqrt(dot(offset, offset)), curve.tangent(t), status};

@@ -82,7 +82,9 @@ template <int Degree>
     const double start = middles<Degree>[static_cast<std::size_t>(change + 1)];
     Residue residue;
     Candidate found = polish<Degree>(curve, polynomial, query, start, residue);
-    if (!residue.converged(curve, allowed)) found = polish_again<Degree>(curve, polynomial, query, change, found.t, residue);
+    if (!residue.converged(curve, allowed)) {
+      found = polish_again<Degree>(curve, polynomial, query, change, found.t, residue);
+    }
     if (!(residue.converged(curve, allowed) && in_cell<Degree>(change, found.t))) {
       return search_minima(curve, query, tolerance, range);
     }

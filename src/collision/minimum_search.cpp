@@ -236,7 +236,8 @@ class MinimumSearch {
         continue;
       }
       (value < 0.0 ? low : high) = t;
-      const double slope = dot(at.velocity, at.velocity) + 2.0 * dot(at.offset, half_second_derivative<Degree>(curve_, t));
+      const Pair half_second = half_second_derivative<Degree>(curve_, t);
+      const double slope = dot(at.velocity, at.velocity) + 2.0 * dot(at.offset, half_second);
       double next = t - value / slope;
       if (!(next > low && next < high)) next = 0.5 * (low + high);
       const double moved = std::abs(next - t);

@@ -123,7 +123,6 @@ template <std::size_t Count>
                                        _mm256_mul_ps(all_y, _mm256_loadu_ps(&ordinates.y[i]))),
                          _mm256_loadu_ps(&ordinates.constant[i]));
   };
-  // No array of these, for which g++ would align the stack.
   const __m256 a = eight(0), b = eight(8), c = eight(16), d = eight(24), e = eight(32), f = eight(40);
   const __m256 least = _mm256_min_ps(
       _mm256_min_ps(_mm256_min_ps(_mm256_and_ps(a, magnitude), _mm256_and_ps(b, magnitude)),
