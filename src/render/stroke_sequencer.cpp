@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "collision/length.hpp"
+#include "stroke_verdict.hpp"
 
 namespace calligraphy {
 namespace {
