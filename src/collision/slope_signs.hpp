@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include <calligraphy/collision/detail/curve_element.hpp>
 
@@ -45,10 +46,11 @@ struct CertainSigns {
   std::uint64_t negative = 0, positive = 0;
 };
 
-/// Bound on the error of an ordinate.
+/// Bound on the error of an ordinate; infinite for a query so far away that ordinates may overflow.
 template <std::size_t Count>
 [[gnu::always_inline]] inline float slope_noise(const SlopeOrdinates<Count>& ordinates, float x, float y) {
-  return std::fabs(x) * ordinates.noise_x + std::fabs(y) * ordinates.noise_y + ordinates.noise_constant;
+  const float noise = std::fabs(x) * ordinates.noise_x + std::fabs(y) * ordinates.noise_y + ordinates.noise_constant;
+  return noise < 1e28F ? noise : std::numeric_limits<float>::infinity();
 }
 
 template <std::size_t Count>

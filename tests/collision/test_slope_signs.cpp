@@ -43,14 +43,19 @@ bool same_signs(const detail::SlopeOrdinates<Count>& ordinates, Pair query) {
 
 TEST_CASE("plain, SSE2 and AVX2 code give the same signs", "[collision]") {
 #if defined(__SSE2__)
+  Sequence random(17);
   int different = 0, compared = 0;
   for (const HardCurve& curve : hard_curves()) {
     const StrokeElement element = prepare_element(curve.control_points);
     if (!element.curve()) continue;
-    for (const Point& query : hard_queries(curve, 200)) {
-      const Pair relative = (pair(query) - pair(element.origin())) * element.curve()->per_size;
-      different += !same_signs(element.curve()->ordinates, relative) || !same_signs(element.curve()->whole, relative);
+    const auto compare = [&, &prepared = *element.curve()](Pair query) {
+      different += !same_signs(prepared.ordinates, query) || !same_signs(prepared.whole, query);
       ++compared;
+    };
+    for (const Point& query : hard_queries(curve, 200)) {
+      compare((pair(query) - pair(element.origin())) * element.curve()->per_size);
+      const Point direction = random.point(-1.0, 1.0);
+      for (const double distance : {1e30, 1e37, 1e38, 3e38, 1e39}) compare(distance * pair(direction));  // of a float's
     }
   }
   CHECK(different == 0);
