@@ -6,7 +6,7 @@
 // numbers, handles, strings, structs, and arrays, of which those that are written must be typed arrays; null where the
 // header permits a null pointer.
 import createModule from "./calligraphy_module.js";
-import { constants, functions, structs } from "./calligraphy_layout.js";
+import { callers, constants, functions, structs } from "./calligraphy_layout.js";
 
 export { constants };
 
@@ -130,22 +130,7 @@ function bind(module) {
     if (name === "version" || name === "last_error") {
       return function () { expect(arguments.length); return text(symbol()); };
     }
-    if (parameters.length > 0 && parameters.length <= 5 && parameters.every(([, type]) => !isCopied(type))) {
-      // Without an array of the arguments: with one, a tick takes three times as long.
-      const [a, b, c, d, e] = /** @type {((value: unknown) => number)[]} */ (passes);
-      /** @type {((...values: any[]) => any)[]} */
-      const byCount = [
-        function (v) { expect(arguments.length); return returned(symbol(a(v), result)); },
-        function (v, w) { expect(arguments.length); return returned(symbol(a(v), b(w), result)); },
-        function (v, w, x) { expect(arguments.length); return returned(symbol(a(v), b(w), c(x), result)); },
-        function (v, w, x, y) { expect(arguments.length); return returned(symbol(a(v), b(w), c(x), d(y), result)); },
-        function (v, w, x, y, z) {
-          expect(arguments.length);
-          return returned(symbol(a(v), b(w), c(x), d(y), e(z), result));
-        },
-      ];
-      return byCount[parameters.length - 1];
-    }
+    if (name in callers) return callers[name](expect, module, returned, result, ...passes);
     return (...values) => {
       expect(values.length);
       /** @type {Copy[]} */
@@ -416,7 +401,7 @@ function bind(module) {
    * @param {string} name of the function
    * @param {Parameter[]} parameters
    * @param {number} i index of this one
-   * @returns {(value: any, values: any[], copies: Copy[]) => number} of the argument, and if it isCopied(), of all of
+   * @returns {(value: any, values: any[], copies: Copy[]) => number} of the argument, and if that is copied, of all of
    * them and the copies, to which it adds
    */
   function passing(name, parameters, i) {
@@ -513,12 +498,6 @@ const numbers = {
     write: (view, address, value) => view.setFloat64(address, value, true),
   },
 };
-
-/**
- * @param {string} type such as "text"
- * @returns {boolean} whether it is copied to the memory of the library
- */
-const isCopied = (type) => type === "text" || isArray(type);
 
 /** @param {string} type such as "read Float64" */
 const isArray = (type) => /^(read|write) /.test(type);

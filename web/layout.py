@@ -45,6 +45,11 @@ export type Initial<Kind> = {
 /** Of each member: its type, its offset and, of an array, its length. */
 export const structs: Record<string, { size: number, members: Record<string, [string, number, number?]> }>;
 export const functions: Record<string, { parameters: [string, string][], returns: string | null }>;
+/** Of each function to which nothing is copied: what makes a function for JavaScript of the module's. */
+export const callers: Record<string, (
+  expect: (count: number) => void, module: any, returned: (status: number) => any, result: number,
+  ...converters: ((value: any, ...rest: any[]) => number)[]
+) => (...values: any[]) => any>;
 """
 
 
@@ -83,6 +88,21 @@ def function(returns, declaration, structs):
     result = next((kind for pattern, kind in RESULTS.items() if re.fullmatch(pattern, last)), None)
     passed = [parameter(each, structs) for each in (parameters[:-1] if result else parameters)]
     return {"parameters": passed, "returns": result}
+
+
+def is_copied(kind):
+    """Whether an argument of this type is copied to the memory of the library."""
+    return kind == "text" or kind.startswith(("read ", "write "))
+
+
+def caller(function, parameters):
+    """Each function has code of its own in JavaScript: that which several share cannot be compiled for the one that a
+    page calls in each tick, and took as long as half a tick."""
+    names = [name for name, _ in parameters]
+    converted = "".join(f"to_{name}({name}), " for name in names)
+    return (f"(_expect, _module, _returned, _result{''.join(f', to_{name}' for name in names)}) => "
+            f"function ({', '.join(names)}) {{\n    _expect(arguments.length);\n"
+            f"    return _returned(_module._calligraphy_{function}({converted}_result));\n  }}")
 
 
 def interface(struct):
@@ -172,12 +192,17 @@ def main():
     functions = {name: function(returns, parameters, structs) for returns, name, parameters in re.findall(
         r"^CALLIGRAPHY_API ([\w* ]+) calligraphy_(\w+)\((.*?)\);", text, re.S | re.M)}
 
-    def table(name, values):
-        lines = "".join(f"  {key}: {json.dumps(value)},\n" for key, value in values.items())
+    callers = {name: caller(name, each["parameters"]) for name, each in functions.items()
+               if each["parameters"] and not any(is_copied(kind) for _, kind in each["parameters"])}
+
+    def table(name, values, written=json.dumps):
+        lines = "".join(f"  {key}: {written(value)},\n" for key, value in values.items())
         return f"export const {name} = {{\n{lines}}};\n"
 
     (directory / "calligraphy_layout.js").write_text(
-        "".join(table(*each) for each in (("structs", structs), ("constants", constants), ("functions", functions))))
+        "// @ts-nocheck: the types are in calligraphy_layout.d.ts\n"
+        + table("structs", structs) + table("constants", constants) + table("functions", functions)
+        + table("callers", callers, str))
     (directory / "calligraphy_layout.d.ts").write_text(
         declarations(structs, constants, functions, comments(commented)), encoding="utf-8")
     checks = [f"static_assert(sizeof(calligraphy_{name}) == {struct['size']});\n" + "".join(

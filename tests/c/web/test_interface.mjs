@@ -299,22 +299,20 @@ test("a pen of a tablet is sensed by its device", () => {
 });
 
 test("what a call needed is freed", () => {
-  /** The address of the next struct: where it goes depends on what else is in memory. */
-  const next = () => {
+  const path = [[0.05, 0.05], [0.05, 0.06]];
+  const recording = recordingOf(page, [{ stroke: 0 }]);
+  /** Calls, then the address of the next struct: one of few, depending on which gaps in memory are filled. */
+  const round = () => {
+    for (let i = 0; i < 5; ++i) library.score(recording, 0);
+    for (let i = 0; i < 200; ++i) library.match(page, 0, [path]);
+    for (let i = 0; i < 200; ++i) assert.throws(() => library.struct("tick", { nothing: 1 }), TypeError);
+    for (let i = 0; i < 10; ++i) library.device_write(device, [0, 0, 0]);
     const made = library.struct("tick"), { address } = made;
     library.discard(made);
     return address;
   };
-  const path = [[0.05, 0.05], [0.05, 0.06]];
-  const recording = recordingOf(page, [{ stroke: 0 }]);
-  for (let i = 0; i < 5; ++i) library.score(recording, 0);  // until the gaps in memory are filled
-  library.match(page, 0, [path]);
-  const before = next();
-  for (let i = 0; i < 20; ++i) library.score(recording, 0);
-  for (let i = 0; i < 1000; ++i) library.match(page, 0, [path]);
-  for (let i = 0; i < 1000; ++i) assert.throws(() => library.struct("tick", { nothing: 1 }), TypeError);
-  for (let i = 0; i < 10; ++i) library.device_write(device, [0, 0, 0]);
-  assert.equal(next(), before);
+  const before = Array.from({ length: 5 }, round), address = round();
+  assert.ok(before.includes(address), `${address} after ${before}`);
 });
 
 test("memory may grow", () => {
