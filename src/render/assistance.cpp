@@ -6,7 +6,7 @@
 namespace calligraphy {
 
 void Assistance::update(const Point& tip, const WriterState& writer) noexcept {
-  if (!policy_.enabled) [[likely]] return;
+  if (!policy_.enabled) return;
   const bool abandoned = has_event(writer.events, TickEvent::stroke_abandoned);
   if (abandoned || has_event(writer.events, TickEvent::stroke_finished)) {
     const double error = way_ > 0.0 ? std::sqrt(square_ / way_) / em_ : 0.0;

@@ -74,11 +74,11 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
   sent_.viscous.z() = paper.viscous.z();
 
   double max_force = ForceLimiter::no_limit;
-  if (thermal_.peak > 0.0) [[unlikely]] {
+  if (thermal_.peak > 0.0) {
     max_force = thermal_.max_force();
     sent_.is_warm = thermal_.is_warm() && dot(force, force) > max_force * max_force;
   }
-  if (observes_energy_) [[unlikely]] {
+  if (observes_energy_) {
     account(pen);
     if (guidance.power > 0.0) energy_.earn(guidance.power * std::clamp(pen.time - time_, 0.0, period_));
     time_ = pen.time;
@@ -92,8 +92,8 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
   } else {
     sent_.page = limiter_.next(sent_.page, force, allowance(pen), max_force);
   }
-  if (observes_energy_) [[unlikely]] energy_.sent(sent_.page);
-  if (thermal_.peak > 0.0) [[unlikely]] {
+  if (observes_energy_) energy_.sent(sent_.page);
+  if (thermal_.peak > 0.0) {
     thermal_.held(norm(sent_.page), period_);
     sent_.heat = thermal_.heat;
   }

@@ -79,7 +79,7 @@ void Guidance::pull(PenState& pen, const WriterState& writer) noexcept {
   if (input_.writing ? writer.guided : writer.rests) resistance = contact.weight;
   const double slack = options.wrong_way_slack * writer.em;
   const bool resisted = resistance > 0.0 && contact.backwards > slack;
-  if (resisted) [[unlikely]] {
+  if (resisted) {
     force_.wrong_way = resistance * wrong_way_force(options.wrong_way_stiffness, options.wrong_way_limit, slack,
                                                     contact.backwards, contact.closest.tangent);
   }
@@ -90,7 +90,7 @@ void Guidance::pull(PenState& pen, const WriterState& writer) noexcept {
     return;
   }
   lead(writer);
-  if (effective_.traits.sees_stroke) [[unlikely]] show_stroke(pen, writer);
+  if (effective_.traits.sees_stroke) show_stroke(pen, writer);
   const GuidanceTerms terms = ask(pen, writer);
   force_.attraction = effective_.law_share * terms.spring;
   force_.viscous = terms.damper;

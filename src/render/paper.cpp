@@ -32,7 +32,7 @@ const PaperForce& Paper::update(const PenState& pen, const WriterState& writer, 
   force_ = {};
   if (is_solid) press(pen);
   if (force_.normal > 0.0) {
-    if (options_.friction.coefficient > 0.0) [[unlikely]] rub(pen.device_point.head<2>(), std::max(0.0, pressure));
+    if (options_.friction.coefficient > 0.0) rub(pen.device_point.head<2>(), std::max(0.0, pressure));
   } else {
     release_friction();
   }

@@ -73,7 +73,7 @@ void PenSensor::restart() noexcept {
 PenState& PenSensor::update(const DeviceState& sample, const Eigen::Vector3d& sent) noexcept {
   pen_.time = sample.time;
   pen_.force = sample.force;
-  if (counts_pauses_) [[unlikely]] count_ticks(sample);
+  if (counts_pauses_) count_ticks(sample);
   pen_.status = accept(sample, sent);
   unsure_for_ = std::max(0.0, unsure_for_ - period_);
   if (pen_.status == TickStatus::ok) [[likely]] {
@@ -182,7 +182,7 @@ bool PenSensor::is_plausible(const Eigen::Vector3d& position, double elapsed) no
 }
 
 void PenSensor::move_device_point(const DeviceState& sample, const Eigen::Vector3d& position) noexcept {
-  if (is_printed_ && has_sample_) [[unlikely]] {
+  if (is_printed_ && has_sample_) {
     const double elapsed = std::clamp(sample.time - time_, 0.0, max_integration_time);
     const Eigen::Vector3d velocity = mapping_.velocity_to_page(sample.velocity);
     const bool is_measured = norm(velocity) <= max_speed_;  // false for NaN too
