@@ -139,6 +139,41 @@ struct Contest {
   std::uint32_t query, first, last;
 };
 
+/// Returns whether the result is known: all of the minima were refined.
+template <int Degree>
+[[gnu::always_inline]] inline bool answer_contest(const CurveElement& curve, const Block<Degree>& block,
+                                                  const Contest& contest, End& start, End& end, NearestPoint& result) {
+  const Minima<Degree>& minima = block.minima;
+  const Signs& signs = block.signs[contest.query];
+  start.move_to(block.queries[contest.query]);
+  end.move_to(block.queries[contest.query]);
+  if (signs.changes() == 0) {
+    (signs.first_negative() ? end : start).write(curve, result);
+    return true;
+  }
+  Candidate best = start.candidate;
+  std::size_t nearest = minima.count;  // none of them
+  bool refined = true;
+  std::uint64_t left = signs.minima();
+  for (std::size_t k = contest.first; k < contest.last; ++k, left &= left - 1) {
+    const Candidate found = minima.candidate(k);
+    refined = refined && minima.refined[k] != 0.0 && in_cell<Degree>(std::countr_zero(left), found.t);
+    if (nearer(found, best)) {
+      best = found;
+      nearest = k;
+    }
+  }
+  if (!refined) return false;
+  if (signs.last_negative() && nearer(end.candidate, best)) {
+    end.write(curve, result);
+  } else if (nearest < minima.count) {
+    minima.write(nearest, result);
+  } else {
+    start.write(curve, result);
+  }
+  return true;
+}
+
 template <int Degree>
 [[gnu::always_inline]] inline void answer_block(const CurveElement& curve, Block<Degree>& block,
                                                 std::size_t singles, std::span<const Point> queries,
@@ -176,34 +211,8 @@ template <int Degree>
   if (contest_count == 0) return;
   End start = end_at<Degree>(curve, 0.0), end = end_at<Degree>(curve, 1.0);
   for (const Contest& contest : std::span(contests).first(contest_count)) {
-    const Signs& signs = block.signs[contest.query];
-    NearestPoint& result = results[contest.query];
-    start.move_to(block.queries[contest.query]);
-    end.move_to(block.queries[contest.query]);
-    if (signs.changes() == 0) {
-      (signs.first_negative() ? end : start).write(curve, result);
-      continue;
-    }
-    Candidate best = start.candidate;
-    std::size_t nearest = minima.count;  // none of them
-    bool refined = true;
-    std::uint64_t left = signs.minima();
-    for (std::size_t k = contest.first; k < contest.last; ++k, left &= left - 1) {
-      const Candidate found = minima.candidate(k);
-      refined = refined && minima.refined[k] != 0.0 && in_cell<Degree>(std::countr_zero(left), found.t);
-      if (nearer(found, best)) {
-        best = found;
-        nearest = k;
-      }
-    }
-    if (!refined) {
+    if (!answer_contest<Degree>(curve, block, contest, start, end, results[contest.query])) {
       answer_alone(contest.query);
-    } else if (signs.last_negative() && nearer(end.candidate, best)) {
-      end.write(curve, result);
-    } else if (nearest < minima.count) {
-      minima.write(nearest, result);
-    } else {
-      start.write(curve, result);
     }
   }
 }

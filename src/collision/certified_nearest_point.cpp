@@ -140,17 +140,6 @@ template <int Degree>
 }
 #endif
 
-/// Indexed by degree minus 2. Holds the baseline until the processor has been detected at program start.
-constinit std::array<CertifiedMethod, 3> certified_methods = {certified_baseline<2>, certified_baseline<3>,
-                                                              certified_baseline<4>};
-
-#if defined(__SSE2__)
-[[maybe_unused]] const bool certified_chosen = [] {
-  if (__builtin_cpu_supports("avx2")) certified_methods = {certified_avx2<2>, certified_avx2<3>, certified_avx2<4>};
-  return true;
-}();
-#endif
-
 /// A second step, for a pen that moves fast.
 template <int Degree>
 [[gnu::noinline]] NearestPoint followed_again(const CurveElement& curve, const Point& query, double tolerance,
@@ -203,12 +192,18 @@ template <int Degree>
 }
 #endif
 
+// Indexed by degree minus 2. They hold the baseline until the processor has been detected at program start.
+constinit std::array<CertifiedMethod, 3> certified_methods = {certified_baseline<2>, certified_baseline<3>,
+                                                              certified_baseline<4>};
 constinit std::array<TrackedMethod, 3> tracked_methods = {tracked_baseline<2>, tracked_baseline<3>,
                                                           tracked_baseline<4>};
 
 #if defined(__SSE2__)
-[[maybe_unused]] const bool tracked_chosen = [] {
-  if (__builtin_cpu_supports("avx2")) tracked_methods = {tracked_avx2<2>, tracked_avx2<3>, tracked_avx2<4>};
+[[maybe_unused]] const bool certified_chosen = [] {
+  if (__builtin_cpu_supports("avx2")) {
+    certified_methods = {certified_avx2<2>, certified_avx2<3>, certified_avx2<4>};
+    tracked_methods = {tracked_avx2<2>, tracked_avx2<3>, tracked_avx2<4>};
+  }
   return true;
 }();
 #endif
