@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "base/apart.hpp"
 #include "conversions.hpp"
 #include "objects.hpp"
 #include "structs.hpp"
@@ -27,7 +26,7 @@ inline calligraphy_status without_force(calligraphy_tick* tick, calligraphy_stat
 
 /// Fills all members of a tick except its size.
 inline void fill_tick(const RendererObject& renderer, calligraphy_tick* to) noexcept {
-  const HapticTick& from = apart(renderer.renderer.last());
+  const HapticTick& from = renderer.renderer.last();
   const Beginning& next = renderer.next(from);
   to->status = static_cast<std::int32_t>(from.status);
   to->state = static_cast<std::int32_t>(from.state);

@@ -68,7 +68,7 @@ class ForceOutput {
   double period_;          ///< [s]
   Impedance in_plane_, normal_;
   double paper_onset_;     ///< depth over which the damper of the paper sets in [m]
-  EnergyBudget energy_;  ///< the largest, last: see apart()
+  EnergyBudget energy_;
 };
 
 }  // namespace calligraphy

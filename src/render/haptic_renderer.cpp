@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "base/apart.hpp"
 #include "effective_options.hpp"
 #include "force_output.hpp"
 #include "guidance.hpp"
@@ -90,14 +89,14 @@ void HapticRenderer::restart() noexcept {
 [[gnu::flatten]] const HapticTick& HapticRenderer::update(const DeviceState& sample) noexcept {
   if (!stages_) [[unlikely]] return nothing;
   Stages& stages = *stages_;
-  ForceOutput& output = apart(stages.output);
+  ForceOutput& output = stages.output;
   const SentForce& sent = output.last();
-  PenState& pen = apart(stages.sensor).update(sample, sent.device);
-  const WriterState& writer = apart(stages.sequencer).update(pen);
-  const GuidanceForce& guidance = apart(stages.guidance).update(pen, writer, sent.guidance);
-  const PaperForce& paper = apart(stages.paper).update(pen, writer, sent.page.z());
+  PenState& pen = stages.sensor.update(sample, sent.device);
+  const WriterState& writer = stages.sequencer.update(pen);
+  const GuidanceForce& guidance = stages.guidance.update(pen, writer, sent.guidance);
+  const PaperForce& paper = stages.paper.update(pen, writer, sent.page.z());
   output.update(pen, guidance, paper);
-  report(pen, writer, guidance, paper, sent, apart(stages.tick));
+  report(pen, writer, guidance, paper, sent, stages.tick);
   return stages.tick;
 }
 

@@ -112,7 +112,7 @@ class StrokeSequencer {
   Point doubted_down_ = Point::Zero();  ///< where the pen was put down for the stroke in doubt [m, page]
   StrokeStart rest_;                    ///< of it, where the pen left it
   PreparedPage page_;
-  // The largest, last: see apart().
+  // Last what is large and seldom read.
   Attempt attempt_;  ///< to write the due stroke
   Attempt next_;     ///< the same pen-down, were the next one meant
   ShapeFit fit_;
