@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "base/require.hpp"
 #include "certified_nearest_point.hpp"
 #include "length.hpp"
 #include "several_elements.hpp"
@@ -16,10 +17,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 StrokeTracker::StrokeTracker(std::span<const StrokeElement> elements, double tolerance)
-    : elements_(elements.first(std::min(elements.size(), std::size_t{max_elements_per_stroke}))),
+    : elements_(elements),
       tolerance_(tolerance),
       clearance_(elements_.size() > 1 ? 0.0 : infinity) {
   validate({.method = NearestPointMethod::tracked, .tolerance = tolerance});
+  require(elements.size() <= max_elements_per_stroke, "number of elements", static_cast<double>(elements.size()), "",
+          "at most 5");
 }
 
 [[gnu::always_inline]] inline NearestPoint StrokeTracker::find_on(int element, const Point& query) noexcept {
@@ -39,7 +42,8 @@ StrokeTracker::StrokeTracker(std::span<const StrokeElement> elements, double tol
 void StrokeTracker::keep(int element, const Point& query, double distance) noexcept {
   const auto i = static_cast<std::size_t>(element);
   tracks_[i].query = query;
-  tracks_[i].clearance = distance - distance_rounding * (distance + elements_[i].size());
+  const bool is_known = distance < infinity;
+  tracks_[i].clearance = is_known ? distance - distance_rounding * (distance + elements_[i].size()) : 0.0;
 }
 
 double StrokeTracker::clearance_of(int element, const Point& query) const noexcept {
@@ -52,7 +56,7 @@ StrokePoint StrokeTracker::update(const Point& query) noexcept {
   // The distance to an element changes by at most the distance that the pen travels.
   const double lead = clearance_ - nearest.closest.distance;
   if (lead > min_square_root && (query - last_query_).squaredNorm() < lead * lead) return nearest;
-  if (nearest.closest.status != NearestPointStatus::not_finite) compare(query, nearest);
+  if (query.allFinite() && !elements_.empty()) compare(query, nearest);
   return nearest;
 }
 
@@ -66,9 +70,9 @@ StrokePoint StrokeTracker::update(const Point& query) noexcept {
     clearances[i] = clearance_of(i, query);
     if (i == last_ || clearances[i] > nearest.closest.distance) continue;
     const NearestPoint closest = find_on(i, query);
-    if (closest.status == NearestPointStatus::not_finite) continue;
     keep(i, query, closest.distance);
     clearances[i] = clearance_of(i, query);
+    if (closest.status == NearestPointStatus::not_finite) continue;
     const double gain = nearest.closest.distance - closest.distance;
     const double tie = distance_tie(size, closest.distance);
     if (gain > tie || (gain >= -tie && i < nearest.element)) nearest = {i, closest};

@@ -133,13 +133,30 @@ TEST_CASE("a query that is not finite leaves the tracker unchanged", "[collision
   CHECK(after.closest.distance == Approx(before.closest.distance).epsilon(1e-12));
 }
 
-TEST_CASE("a tracker without elements rejects every query, and one with too many keeps the first five", "[collision]") {
+TEST_CASE("a tracker without elements rejects every query, and one of more than five cannot be made", "[collision]") {
   StrokeTracker none{std::span<const StrokeElement>()};
   CHECK(none.update({0.0, 0.0}).closest.status == NearestPointStatus::not_finite);
-  std::vector<StrokeElement> elements;
-  for (int i = 0; i < 9; ++i) {
-    elements.push_back(prepare_element(std::vector<Point>{{0.01 * i, 0.0}, {0.01 * (i + 1), 0.0}}));
+  const std::vector<StrokeElement> elements(6, prepare_element(std::vector<Point>{{0.0, 0.0}, {0.01, 0.0}}));
+  CHECK_THROWS_WITH(StrokeTracker(elements), "number of elements = 6, must be at most 5");
+}
+
+TEST_CASE("a tracker ignores an element that cannot answer, as a batch does", "[collision]") {
+  const double no = std::numeric_limits<double>::quiet_NaN();
+  const StrokeElement bad = prepare_element(std::vector<Point>{{no, 0.0}, {0.01, 0.0}}),
+                      tiny = prepare_element(std::vector<Point>{{0.0, 0.0}, {1e-290, 0.0}}),
+                      line = prepare_element(std::vector<Point>{{0.0, 0.0}, {0.01, 0.0}}),
+                      next = prepare_element(std::vector<Point>{{0.01, 0.0}, {0.01, 0.02}});
+  for (const auto& elements : std::vector<std::vector<StrokeElement>>{
+           {bad, line, next}, {line, bad, next}, {tiny, line}, {line, next, tiny}, {bad, bad}, {bad}}) {
+    StrokeTracker tracker(elements);
+    int different = 0;
+    for (int i = 0; i < 100; ++i) {
+      const Point tip = i % 10 == 9 ? Point(1e200, no) : Point(0.0003 * i, 0.001 * (i % 7) - 1e-4);
+      StrokePoint there = tracker.update(tip), found[1];
+      nearest_points(elements, std::vector{tip}, found);
+      different += there.closest.distance != Approx(found[0].closest.distance).epsilon(1e-12) ||
+                   (found[0].closest.certified() && there.element != found[0].element);
+    }
+    CHECK(different == 0);
   }
-  StrokeTracker many(elements);
-  CHECK(many.update({0.09, 0.0}).element == 4);
 }

@@ -11,11 +11,12 @@ namespace calligraphy {
 
 /// Finds the certified nearest point of the whole stroke for each position of a pen, fast as long as the pen moves
 /// little: the search on the last nearest element starts from its last parameter, and the other elements are skipped
-/// until the pen has travelled far enough to be as near to them. Of equal distances the earlier element wins.
+/// until the pen has travelled far enough to be as near to them. Of distances that are equal within rounding the earlier
+/// element wins. An element that cannot answer is ignored if another can.
 class StrokeTracker {
  public:
-  /// Keeps a view of the elements, at most the first 5. `tolerance` is as in NearestPointOptions.
-  /// @throws ValueError naming the tolerance unless it is above 0 and at most 1
+  /// Keeps a view of the elements, of which a stroke has at most 5. `tolerance` is as in NearestPointOptions.
+  /// @throws ValueError if there are more, and naming the tolerance unless it is above 0 and at most 1
   explicit StrokeTracker(std::span<const StrokeElement> elements, double tolerance = 1e-9);
   StrokeTracker(std::vector<StrokeElement>&&, double = 0.0) = delete;  // would dangle before the first update
 
