@@ -82,9 +82,11 @@ import_characters() {
   fi
   if [[ -z ${CALLIGRAPHY_PROGRAM:-} ]]; then
     scripts/install_dependencies.sh
-    if [[ ! -f build/CMakeCache.txt ]]; then
-      cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_TESTS=OFF -DCALLIGRAPHY_EXAMPLES=OFF
+    local options=()
+    if [[ ! -f build/CMakeCache.txt ]]; then  # a build directory of your own keeps its options
+      options=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_TESTS=OFF -DCALLIGRAPHY_EXAMPLES=OFF)
     fi
+    cmake -S . -B build "${options[@]}" -DCALLIGRAPHY_TOOLS=ON
     cmake --build build --target calligraphy_program
   fi
   "$program" import "$characters" --letters "$letters" --only "$(tr -d '\n' < web/characters.txt)" \

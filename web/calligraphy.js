@@ -254,7 +254,7 @@ function bind(module) {
     if (!(Array.isArray(paths) && paths.every(isPath))) {
       throw new TypeError("match: expected an array of pen-downs, each an array of points [x, y]");
     }
-    if (typeof options !== "object") throw new TypeError("match: expected options { tolerance, forms, others }");
+    if (typeof options !== "object" || !options) throw new TypeError("match: expected options { tolerance, forms, others }");
     const { tolerance = constants.TOLERANCE_NORMAL, forms = 0, others = 0 } = options;
     const coordinates = paths.map((path) => (Array.isArray(path) ? path.flatMap(([x, y]) => [x, y]) : [...path]));
     const points = coordinates.flat(), sizes = coordinates.map((path) => path.length / 2);
