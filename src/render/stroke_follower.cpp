@@ -25,9 +25,6 @@ constexpr double step = 0.01;
 constexpr double looks_a_second = 2000.0;  ///< at a first stretch, at least one a tick
 constexpr int all_looks = std::numeric_limits<int>::max();
 
-/// The end of the stroke may be reached soon from within this distance [em].
-constexpr double end_zone = 0.1;
-
 /// The stroke bends sharply at a point where its directions from this far before and to this far after differ by more
 /// than 37 degrees [em].
 constexpr double bend = 0.03, bend_cosine = 0.8;
@@ -115,12 +112,15 @@ void StrokeFollower::begin(const Point& tip, const Point& misplaced) noexcept {
   pull_ = Point::Zero();
   is_first_leg_ = true;
   is_behind_ = false;
+  most_way_ = 0.0;
   to_end_ = length_;
 }
 
 void StrokeFollower::update(const Point& tip, const Point& hand) noexcept {
+  const Point pull = hand - tip;
+  if (is_first_leg_ || is_behind_) most_way_ += (tip - tip_).norm() + (pull - pull_).norm();
   tip_ = tip;
-  pull_ = hand - tip;
+  pull_ = pull;
   if (is_behind_) {
     wait();
   } else if ((tip - seen_).squaredNorm() >= step * em_ * (step * em_)) {
@@ -137,7 +137,7 @@ void StrokeFollower::leave() noexcept {
 /// that brings a first stretch has enough to do: that is looked at in the next ones, while the samples wait.
 [[gnu::noinline]] void StrokeFollower::look_along() noexcept {
   begin_leg({tip_, pull_});
-  is_behind_ = is_first_leg_ && leg_steps_ > looks_a_tick_ && !is_near_end();
+  is_behind_ = is_first_leg_ && leg_steps_ > looks_a_tick_ && !may_be_accepted();
   is_first_leg_ = false;
   waiting_ = next_ = 0;
   if (!is_behind_) catch_up(all_looks);
@@ -152,15 +152,13 @@ void StrokeFollower::begin_leg(const Sample& to) noexcept {
   leg_step_ = 0;
 }
 
-/// The end of the stroke must not be noticed late.
-bool StrokeFollower::is_near_end() const noexcept {
-  const double near = end_zone * em_ + lead_;
-  return (tip_ - row(count_ - 1).point).squaredNorm() < near * near;
-}
+/// Whether accepts() may be true once all is looked at: it must not be so late. The way that counts is at most that of
+/// the hand, apart from rounding.
+bool StrokeFollower::may_be_accepted() const noexcept { return 1.001 * most_way_ >= shortest_way_; }
 
 [[gnu::noinline]] void StrokeFollower::wait() noexcept {
   samples_[static_cast<std::size_t>(waiting_++)] = {tip_, pull_};
-  catch_up(waiting_ == max_waiting || is_near_end() ? all_looks : looks_a_tick_);
+  catch_up(waiting_ == max_waiting || may_be_accepted() ? all_looks : looks_a_tick_);
 }
 
 /// Looks at what it would have looked at, had it done so at once.
@@ -293,8 +291,11 @@ bool StrokeFollower::accepts(double hidden) const noexcept {
   return covered_ >= needed && way >= shortest_way_ && way + hidden >= least_way_ && outside_ <= max_outside * way_;
 }
 
-double StrokeFollower::astray(const Point& hand, const StrokeContact& contact) const noexcept {
-  return across(hand - contact.closest.point, contact.closest.tangent);
+double StrokeFollower::astray(const Point& hand, const StrokeContact& contact) noexcept {
+  const Point from_stroke = hand - contact.closest.point, &tangent = contact.closest.tangent;
+  // Offsets that are allowed for only make it less.
+  if (is_behind_ && std::abs(left(from_stroke, tangent)) > width_) catch_up(all_looks);
+  return across(from_stroke, tangent);
 }
 
 }  // namespace calligraphy

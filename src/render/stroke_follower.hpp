@@ -35,8 +35,9 @@ class StrokeFollower {
   /// Whether the pen is at the end of the stroke, up to `hidden` [m] short of it, or has been there, in order.
   bool is_at_end(double hidden) const noexcept;
 
-  /// Distance of a hand at `hand` across the stroke, beyond the offset that is allowed for [m].
-  double astray(const Point& hand, const StrokeContact& contact) const noexcept;
+  /// Distance of a hand at `hand` across the stroke, beyond the offset that is allowed for [m]: exact where it is more
+  /// than the width of the corridor.
+  double astray(const Point& hand, const StrokeContact& contact) noexcept;
 
  private:
   static constexpr int max_points = 64;  // as many as the bits of a word
@@ -64,7 +65,7 @@ class StrokeFollower {
   double across(const Point& from_stroke, const Point& tangent) const noexcept;
   void look_along() noexcept;
   void begin_leg(const Sample& to) noexcept;
-  bool is_near_end() const noexcept;
+  bool may_be_accepted() const noexcept;
   void wait() noexcept;
   void catch_up(int looks) noexcept;
   void look(const Point& tip, double way) noexcept;
@@ -101,6 +102,7 @@ class StrokeFollower {
   int waiting_ = 0, next_ = 0;        ///< samples that waited, and the first that still does
   int leg_step_ = 0, leg_steps_ = 0;  ///< looks at the leg, and how many it takes
   double leg_way_ = 0.0;              ///< its length
+  double most_way_ = 0.0;             ///< length of the hand's path while that is so
   Point leg_from_ = Point::Zero(), leg_ = Point::Zero();  ///< its beginning, and the vector from there to its end
   Point leg_pull_ = Point::Zero();                        ///< `pull_` at its end
   std::array<Sample, max_waiting> samples_;

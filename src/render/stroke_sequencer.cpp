@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <new>
+#include <type_traits>
 #include <utility>
 
 #include "collision/length.hpp"
@@ -175,8 +176,7 @@ bool StrokeSequencer::begins(const PenState& pen) noexcept {
   const CaptureVerdict verdict = try_to_begin(attempt_, writer_.stroke, pen);
   if (verdict == CaptureVerdict::begun) return true;
   if (verdict == CaptureVerdict::another_stroke) writer_.rests = false;
-  const bool is_put_down = writer_.state == InteractionState::separation;  // its contact is known
-  if (writer_.rests && !is_put_down) writer_.contact = due_->geometry.update(pen.tip.head<2>(), stroke_);
+  if (writer_.rests) writer_.contact = due_->geometry.update(pen.tip.head<2>(), stroke_);
   return false;
 }
 
@@ -221,6 +221,7 @@ void StrokeSequencer::follow(Attempt& attempt, int stroke, const PenState& pen) 
 void StrokeSequencer::write_on(const PenState& pen) noexcept {
   const Point tip = pen.tip.head<2>();
   // Made where it stays: a copy takes five more cache lines, of code and of data.
+  static_assert(std::is_trivially_destructible_v<StrokeContact>);
   ::new (&writer_.contact) StrokeContact(due_->geometry.update(tip, stroke_));
   if (writer_.contact.passed_feature) writer_.events |= TickEvent::feature_passed;
   hand_ = hand(pen);
@@ -284,6 +285,7 @@ void StrokeSequencer::step_fit() noexcept {
     return;
   }
   due_->follower.leave();
+  writer_.covered = due_->follower.covered();
   if (look_ != Look::at_lift) look_for(Look::decides);
   look_ = Look::decides;
   if (fit_.is_done()) decide(pen);
