@@ -22,14 +22,14 @@ class ReleasedSpring {
   void take_over(const Point& force, const Point& tip, const Point& velocity, double stiffness, double damping,
                  double ticks) noexcept {
     const double size = force.norm();
-    acts_ = size > min_force;
-    direction_ = acts_ ? Point(force / size) : Point(Point::Zero());
+    direction_ = size > 0.0 ? Point(force / size) : Point(Point::Zero());
     stiffness_ = stiffness;
     damping_ = damping;
     tip_ = tip;
     strained_ = std::max(0.0, size + damping * direction_.dot(velocity));
     step_ = ticks > 1.0 ? 1.0 / ticks : 1.0;
     passed_ = 0.0;
+    acts_ = size > 0.0;
   }
 
   bool acts() const noexcept { return acts_; }
@@ -46,8 +46,6 @@ class ReleasedSpring {
   }
 
  private:
-  static constexpr double min_force = 1e-6;  // the direction of a smaller one may be that of rounding errors [N]
-
   bool acts_ = false;
   Point direction_ = Point::Zero();
   Point tip_ = Point::Zero();
