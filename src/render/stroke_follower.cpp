@@ -118,7 +118,7 @@ void StrokeFollower::begin(const Point& tip, const Point& misplaced) noexcept {
 
 void StrokeFollower::update(const Point& tip, const Point& hand) noexcept {
   const Point pull = hand - tip;
-  if (is_first_leg_ || is_behind_) most_way_ += (tip - tip_).norm() + (pull - pull_).norm();
+  if (is_first_leg_ || is_behind_) [[unlikely]] lengthen_way(tip, pull);
   tip_ = tip;
   pull_ = pull;
   if (is_behind_) {
@@ -129,8 +129,12 @@ void StrokeFollower::update(const Point& tip, const Point& hand) noexcept {
 }
 
 void StrokeFollower::leave() noexcept {
-  if (is_behind_) catch_up(all_looks);
+  if (is_behind_) catch_up_entirely();
   look(tip_, (tip_ - seen_).norm());
+}
+
+[[gnu::noinline]] void StrokeFollower::lengthen_way(const Point& tip, const Point& pull) noexcept {
+  most_way_ += (tip - tip_).norm() + (pull - pull_).norm();
 }
 
 /// Fills in between samples: of lost ones, and of a first stretch that does not bend, only the ends are known. The tick
@@ -140,7 +144,7 @@ void StrokeFollower::leave() noexcept {
   is_behind_ = is_first_leg_ && leg_steps_ > looks_a_tick_ && !may_be_accepted();
   is_first_leg_ = false;
   waiting_ = next_ = 0;
-  if (!is_behind_) catch_up(all_looks);
+  if (!is_behind_) catch_up_entirely();
 }
 
 void StrokeFollower::begin_leg(const Sample& to) noexcept {
@@ -160,6 +164,8 @@ bool StrokeFollower::may_be_accepted() const noexcept { return 1.001 * most_way_
   samples_[static_cast<std::size_t>(waiting_++)] = {tip_, pull_};
   catch_up(waiting_ == max_waiting || may_be_accepted() ? all_looks : looks_a_tick_);
 }
+
+[[gnu::noinline]] void StrokeFollower::catch_up_entirely() noexcept { catch_up(all_looks); }
 
 /// Looks at what it would have looked at, had it done so at once.
 void StrokeFollower::catch_up(int looks) noexcept {
@@ -294,7 +300,7 @@ bool StrokeFollower::accepts(double hidden) const noexcept {
 double StrokeFollower::astray(const Point& hand, const StrokeContact& contact) noexcept {
   const Point from_stroke = hand - contact.closest.point, &tangent = contact.closest.tangent;
   // Offsets that are allowed for only make it less.
-  if (is_behind_ && std::abs(left(from_stroke, tangent)) > width_) catch_up(all_looks);
+  if (is_behind_ && std::abs(left(from_stroke, tangent)) > width_) [[unlikely]] catch_up_entirely();
   return across(from_stroke, tangent);
 }
 

@@ -63,10 +63,12 @@ class StrokeFollower {
   void place(const Point& tip, int point, Places& places) const noexcept;
   void pass_special(int point, double square, Places& places) const noexcept;
   double across(const Point& from_stroke, const Point& tangent) const noexcept;
+  void lengthen_way(const Point& tip, const Point& pull) noexcept;
   void look_along() noexcept;
   void begin_leg(const Sample& to) noexcept;
   bool may_be_accepted() const noexcept;
   void wait() noexcept;
+  void catch_up_entirely() noexcept;
   void catch_up(int looks) noexcept;
   void look(const Point& tip, double way) noexcept;
   void measure(const Point& tip) noexcept;
