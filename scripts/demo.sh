@@ -4,13 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-scripts/install_dependencies.sh
-options=()
-if [[ ! -f build/CMakeCache.txt ]]; then  # a build directory of your own keeps its options
-  options=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_TESTS=OFF -DCALLIGRAPHY_EXAMPLES=OFF)
-fi
-cmake -S . -B build "${options[@]}" -DCALLIGRAPHY_TOOLS=ON
-cmake --build build --target calligraphy_program
+scripts/build_program.sh
 build/tools/calligraphy write 北京航空 --out demo --force "$@"
 
 cat << END

@@ -80,15 +80,7 @@ import_characters() {
     echo "The characters cannot be downloaded by npm pack: the page has those that are built in." >&2
     return
   fi
-  if [[ -z ${CALLIGRAPHY_PROGRAM:-} ]]; then
-    scripts/install_dependencies.sh
-    local options=()
-    if [[ ! -f build/CMakeCache.txt ]]; then  # a build directory of your own keeps its options
-      options=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_TESTS=OFF -DCALLIGRAPHY_EXAMPLES=OFF)
-    fi
-    cmake -S . -B build "${options[@]}" -DCALLIGRAPHY_TOOLS=ON
-    cmake --build build --target calligraphy_program
-  fi
+  [[ -n ${CALLIGRAPHY_PROGRAM:-} ]] || scripts/build_program.sh
   "$program" import "$characters" --letters "$letters" --only "$(tr -d '\n' < web/characters.txt)" \
     --date "$(date -u +%F)" -o web/dist/characters.set > /dev/null
   cp web/characters.txt web/dist

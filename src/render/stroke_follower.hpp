@@ -104,7 +104,7 @@ class StrokeFollower {
   int waiting_ = 0, next_ = 0;        ///< samples that waited, and the first that still does
   int leg_step_ = 0, leg_steps_ = 0;  ///< looks at the leg, and how many it takes
   double leg_way_ = 0.0;              ///< its length
-  double most_way_ = 0.0;             ///< length of the hand's path while that is so
+  double most_way_ = 0.0;             ///< no less than the hand's path, until no sample waits
   Point leg_from_ = Point::Zero(), leg_ = Point::Zero();  ///< its beginning, and the vector from there to its end
   Point leg_pull_ = Point::Zero();                        ///< `pull_` at its end
   std::array<Sample, max_waiting> samples_;
