@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, and builds the program: build/tools/calligraphy. A build directory of your own keeps its other
-# options.
+# Installs what is missing, and builds the program: build/tools/calligraphy. A build directory of your own keeps its
+# other options.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -94,7 +94,8 @@ template <int Degree>
 #endif
 
 /// Indexed by degree minus 2. Holds the baseline until the processor has been detected at program start.
-constinit std::array<RefinedMethod, 3> refined_methods = {refined_baseline<2>, refined_baseline<3>, refined_baseline<4>};
+constinit std::array<RefinedMethod, 3> refined_methods = {refined_baseline<2>, refined_baseline<3>,
+                                                          refined_baseline<4>};
 
 #if defined(__SSE2__)
 [[maybe_unused]] const bool refined_chosen = [] {

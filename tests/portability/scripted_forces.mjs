@@ -74,8 +74,8 @@ export function scriptedForces(library, constants) {
 }
 
 /**
- * What a tick takes, the median of several rounds of the samples of scriptedForces(). A round replays them so often that
- * a browser's clock, whose steps are 0.1 ms, tells its length to 2 %.
+ * What a tick takes, the median of several rounds of the samples of scriptedForces(). A round replays them so often
+ * that a browser's clock, whose steps are 0.1 ms, tells its length to 2 %.
  */
 export function nanosecondsPerTick(library, { renderer, states }) {
   const tick = library.struct("tick"), rounds = [], passes = 20;

@@ -11,8 +11,8 @@ namespace calligraphy {
 
 /// Finds the certified nearest point of the whole stroke for each position of a pen, fast as long as the pen moves
 /// little: the search on the last nearest element starts from its last parameter, and the other elements are skipped
-/// until the pen has travelled far enough to be as near to them. Of distances that are equal within rounding the earlier
-/// element wins. An element that cannot answer is ignored if another can.
+/// until the pen has travelled far enough to be as near to them. Of distances that are equal within rounding the
+/// earlier element wins. An element that cannot answer is ignored if another can.
 class StrokeTracker {
  public:
   /// Keeps a view of the elements, of which a stroke has at most 5. `tolerance` is as in NearestPointOptions.
