@@ -50,6 +50,7 @@
 #include <calligraphy/model/typical_ink.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 #include <calligraphy/practice/hint_text.hpp>
+#include <calligraphy/practice/lesson.hpp>
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/mean_interval.hpp>
 #include <calligraphy/practice/page.hpp>

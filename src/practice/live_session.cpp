@@ -64,7 +64,7 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
       in_front.store(true, std::memory_order_relaxed);
     }
     const HapticTick& tick = session.update(state);
-    queue.push({session.sample(), session.input(), tick.hint, tick.to_start});
+    queue.push({session.sample(), session.input(state), tick.hint, tick.to_start});
     if (session.has_failed()) has_failed.store(true, std::memory_order_relaxed);
     return Eigen::Vector3d(session.force());
   };

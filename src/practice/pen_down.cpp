@@ -10,7 +10,6 @@
 namespace calligraphy {
 namespace {
 
-constexpr double max_bounce = 0.05;  // nobody lifts a pen and lowers it again within half a period of 10 Hz [s]
 constexpr double rounding = 1e-6;    // of times [s]
 constexpr double max_lost = 0.1;     // or lifts it and lowers it at the next stroke within this time [s]
 

@@ -11,6 +11,9 @@
 
 namespace calligraphy {
 
+/// Nobody lifts a pen and lowers it again within half a period of 10 Hz [s].
+inline constexpr double max_bounce = 0.05;
+
 /// Whether the pen's position is known.
 inline bool is_usable(const RecordedSample& sample) noexcept {
   return has_position(sample.status) && sample.pen_tip.allFinite() && std::isfinite(sample.time);

@@ -55,11 +55,12 @@ void end(const SessionOptions& options, const Recording& recording) {
 const HapticTick& record_tick(const PracticePage& page, HapticDevice& device, SessionTick& session,
                               const SessionOptions& options, Recording& recording) {
   if (options.keep && recording.samples.size() % progress_interval == 0) options.keep(recording);
-  const HapticTick& tick = session.update(device.read());
+  const DeviceState input = device.read();
+  const HapticTick& tick = session.update(input);
   if (session.has_failed()) std::rethrow_exception(session.error());
   device.write(session.force());
   recording.samples.push_back(session.sample());
-  recording.inputs.push_back(session.input());
+  recording.inputs.push_back(session.input(input));
   if (options.progress && recording.samples.size() % progress_interval == 0) {
     options.progress(share_written(page, tick.character, tick.stroke));
   }

@@ -23,8 +23,7 @@ SessionTick::SessionTick(HapticRenderer& renderer, const Capabilities& device, F
       measure_(measure) {}
 
 const HapticTick& SessionTick::update(const DeviceState& state) noexcept {
-  input_ = state;
-  if (state.force == force_at_work(device_, force_)) input_.force.setConstant(std::numeric_limits<double>::quiet_NaN());
+  is_force_known_ = state.force == force_at_work(device_, force_);
   const double before = measure_ ? monotonic_seconds() : 0.0;
   const HapticTick& tick = renderer_.update(state);
   sample_ = {tick.time,  tick.device_point, tick.pen_tip,   tick.page_force, tick.state,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <limits>
 
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/practice/recording.hpp>
@@ -21,8 +22,11 @@ class SessionTick {
 
   const Eigen::Vector3d& force() const noexcept { return force_; }
   const RecordedSample& sample() const noexcept { return sample_; }
-  /// What came in, as Recording::inputs has it.
-  const DeviceState& input() const noexcept { return input_; }
+  /// What came in, as Recording::inputs has it, of the sample that was processed last.
+  DeviceState input(DeviceState state) const noexcept {
+    if (is_force_known_) state.force.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return state;
+  }
   /// Whether the force law or the guidance law has thrown, or its force was not finite: TickStatus::bad_law.
   bool has_failed() const noexcept { return has_failed_; }
   /// What the law threw first, or a ValueError that names the law; null unless has_failed().
@@ -42,7 +46,7 @@ class SessionTick {
   std::exception_ptr error_;  ///< what the force law threw
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
   RecordedSample sample_;
-  DeviceState input_;
+  bool is_force_known_ = false;  ///< that of the sample is what force_at_work() says of the tick before
 };
 
 /// The force at work when nothing comes between that of the last tick and the device: a simulated device reports what

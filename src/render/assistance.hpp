@@ -16,6 +16,11 @@ class Assistance {
   void update(const Point& tip, const WriterState& writer) noexcept;
   void restart() noexcept { *this = Assistance(policy_); }
 
+  /// Goes on from a factor, unless it is none or guidance does not adapt.
+  void set(double factor) noexcept {
+    if (policy_.enabled && factor >= 0.0 && factor <= 1.0) factor_ = factor;
+  }
+
   /// Factor on the guidance [1].
   double factor() const noexcept { return factor_; }
 

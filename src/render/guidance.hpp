@@ -36,6 +36,9 @@ class Guidance {
 
   void restart() noexcept;
 
+  /// HapticRenderer::set_assistance().
+  void set_assistance(double factor) noexcept { assistance_.set(factor); }
+
   /// First exception of the law since the restart; null: none.
   const std::exception_ptr& error() const noexcept { return error_; }
 

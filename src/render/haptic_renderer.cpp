@@ -101,6 +101,10 @@ void HapticRenderer::restart() noexcept {
 }
 
 bool HapticRenderer::skip_stroke() noexcept { return stages_->sequencer.skip(); }
+bool HapticRenderer::set_due(int character, int stroke) noexcept {
+  return stages_->sequencer.set_due(character, stroke);
+}
+void HapticRenderer::set_assistance(double factor) noexcept { stages_->guidance.set_assistance(factor); }
 const HapticTick& HapticRenderer::last() const noexcept { return stages_->tick; }
 const GuidanceTraits& HapticRenderer::law() const noexcept { return stages_->effective.traits; }
 const std::exception_ptr& HapticRenderer::law_error() const noexcept { return stages_->guidance.error(); }

@@ -95,6 +95,19 @@ bool StrokeSequencer::skip() noexcept {
   return true;
 }
 
+bool StrokeSequencer::set_due(int character, int stroke) noexcept {
+  const bool is_lifted = writer_.state == InteractionState::separation;
+  if (writer_.state == InteractionState::writing || (character != writer_.character && !is_lifted)) return false;
+  if (character < 0 || character > page_.size()) return false;
+  const int count = character < page_.size() ? static_cast<int>(page_[character].strokes.size()) : 1;
+  if (stroke < 0 || stroke >= count) return false;
+  in_doubt_ = false;
+  look_ = Look::none;
+  activate(character, stroke);
+  if (!is_lifted) writer_.phase = WritingPhase::finished;
+  return true;
+}
+
 const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
   using State = InteractionState;
   const Point tip = pen.tip.head<2>();

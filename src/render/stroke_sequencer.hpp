@@ -29,6 +29,8 @@ class StrokeSequencer {
   void restart() noexcept;
   /// HapticRenderer::skip_stroke().
   bool skip() noexcept;
+  /// HapticRenderer::set_due().
+  bool set_due(int character, int stroke) noexcept;
 
   const std::vector<PlacedCharacter>& page() const noexcept { return page_.characters(); }
 

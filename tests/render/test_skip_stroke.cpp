@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../allocation_counter.hpp"
@@ -102,6 +103,31 @@ TEST_CASE("past the last stroke of a character the next one is due", "[render]")
   CHECK_FALSE(renderer.skip_stroke());
   renderer.restart();
   CHECK(renderer.skip_stroke());
+}
+
+TEST_CASE("a stroke is made due again, and a renderer takes over from another", "[render]") {
+  HapticRenderer renderer = renderer_of({placed(U'三'), placed(U'一', {0.08, 0.02})});
+  ScriptedPen pen(renderer);
+  pen.write(path(renderer, 0));
+  pen.write(path(renderer, 1));
+  CHECK(renderer.set_due(0, 0));
+  for (std::size_t stroke = 0; stroke < 3; ++stroke) {
+    CHECK(renderer.last().character == 0);
+    pen.write(path(renderer, stroke));
+  }
+  CHECK(renderer.last().character == 1);
+  CHECK(renderer.set_due(0, 2));
+  pen.on_tick = [&](const HapticTick& tick) {
+    if (tick.state == InteractionState::writing) CHECK_FALSE(renderer.set_due(0, 0));
+    if (tick.state != InteractionState::separation) CHECK_FALSE(renderer.set_due(1, 0));
+  };
+  pen.write(path(renderer, 2));
+  CHECK(renderer.last().character == 1);
+  for (const auto& [character, stroke] : {std::pair(-1, 0), {0, -1}, {0, 3}, {1, 1}, {2, 1}, {3, 0}}) {
+    CHECK_FALSE(renderer.set_due(character, stroke));
+  }
+  CHECK(renderer.set_due(2, 0));
+  CHECK_FALSE(renderer.skip_stroke());
 }
 
 TEST_CASE("a stroke that is being written is not skipped", "[render]") {

@@ -49,6 +49,18 @@ class HapticRenderer {
   /// written, or the pen has not left the last stroke of the character yet.
   bool skip_stroke() noexcept;
 
+  /// Makes a stroke due, and those after it, whatever was written of the page: an earlier one, to be written again, or,
+  /// of a renderer that takes over from another one, the one that is due there. The number of characters and stroke 0:
+  /// the page counts as written. As skip_stroke(), it makes no event, what was not decided yet is forgotten, and a pen
+  /// on the paper must be lifted first. Call it as that; it never allocates. Returns false, and does nothing, while the
+  /// pen writes a stroke (InteractionState::writing), for another character than the active one while it is on the
+  /// paper, and for a stroke that the page does not have.
+  bool set_due(int character, int stroke) noexcept;
+
+  /// Sets the factor on the guidance from which the assist policy goes on, from 0 to 1 (GuidanceOptions::assist); it has
+  /// no effect without that. Call it as skip_stroke().
+  void set_assistance(double factor) noexcept;
+
   /// Traits of the guidance law; the name also states any scaling down, and the energy budget that it was given.
   const GuidanceTraits& law() const noexcept;
   /// First exception of the guidance law since the restart; null: none. TickStatus::bad_law says when.

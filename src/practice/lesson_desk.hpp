@@ -1,0 +1,82 @@
+// The half of a lesson that looks on: makes scenes, and collects what happens into a view and a recording.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <calligraphy/practice/lesson_view.hpp>
+#include <calligraphy/practice/recording.hpp>
+
+#include "lesson_machine.hpp"
+
+namespace calligraphy {
+
+/// A tick for the half that looks on.
+struct LessonSample {
+  RecordedSample sample;
+  Point hand = Point::Zero();      ///< of the pupil; NaN: not known [m, page]
+  Point to_start = Point::Zero();  ///< HapticTick::to_start
+  WritingHint hint = WritingHint::none;
+  int pen_down = -1;        ///< number of the one whose ink it is; -1: none
+  std::uint32_t start = 0;  ///< LessonScene::start
+};
+
+class LessonDesk {
+ public:
+  /// @throws as Lesson
+  LessonDesk(std::vector<PracticePage> pages, const Capabilities& device, const LessonOptions& options);
+
+  /// A new scene on a page of these, from a tick on; what was written stays unless it `begins`. @throws as Lesson, and
+  /// then changes nothing
+  LessonScene& make(std::vector<PracticePage> pages, std::size_t index, const LessonOptions& options, bool begins,
+                    std::uint64_t tick);
+
+  const std::vector<PracticePage>& pages() const noexcept { return pages_; }
+  std::size_t page_index() const noexcept { return index_; }
+  const LessonOptions& options() const noexcept { return options_; }
+  /// The scene that was made last, and the one that the loop was last seen in.
+  LessonScene& newest() const noexcept { return *scenes_.back(); }
+  const LessonScene& seen() const noexcept { return *scenes_.front(); }
+  /// Ticks that wait for look() at most.
+  std::size_t capacity() const;
+
+  void take(const LessonSample& sample, const DeviceState* input);
+  void take(const LessonEvent& event);
+  void take(const LessonState& state);
+  bool take_event(LessonEvent& event) noexcept;
+
+  /// Given how many ticks and events were lost on the way.
+  const LessonView& view(std::uint64_t lost_ticks, std::uint64_t lost_events);
+  const LessonView& last_view() const noexcept { return view_; }
+  const Recording& recording() const noexcept { return recording_; }
+  /// Where the pupil's hand was, of each sample of the recording.
+  const std::vector<Point>& hands() const noexcept { return hands_; }
+  /// What was refused, ignored or undone on this page.
+  const std::vector<LessonEvent>& attempts() const noexcept { return attempts_; }
+
+ private:
+  void begin_recording(std::uint32_t start);
+  void view_strokes();
+  void view_ink();
+  bool shows(int stroke) const;
+
+  Capabilities device_;
+  std::vector<PracticePage> pages_;
+  std::size_t index_ = 0;
+  LessonOptions options_;
+  std::vector<std::unique_ptr<LessonScene>> scenes_;  ///< in use, or to be used, in order
+  LessonState state_;
+  LessonView view_;
+  Recording recording_;
+  std::uint32_t recorded_ = 0;  ///< LessonScene::start of the recording
+  std::vector<Point> hands_;
+  std::deque<LessonEvent> events_;
+  std::uint64_t lost_events_ = 0;  ///< that the caller did not take in time
+  std::vector<LessonEvent> attempts_;
+};
+
+}  // namespace calligraphy

@@ -1,0 +1,273 @@
+#include <calligraphy/practice/lesson.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/random.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
+
+#include "../allocation_counter.hpp"
+#include "../catch.hpp"
+#include "../sanitized.hpp"
+#include "lesson_pupil.hpp"
+#include "pages.hpp"
+
+namespace lesson_tests {
+
+using namespace calligraphy;
+using calligraphy_test::page_of;
+using calligraphy_test::Pupil;
+
+namespace {
+
+LessonOptions options_for(LessonMode mode = LessonMode::guided) {
+  LessonOptions options;
+  options.mode = mode;
+  options.mapping = MotionMapping();  // the pupil moves in page axes
+  options.renderer = RendererOptions::for_device(device_profile("desktop"));
+  return options;
+}
+
+Lesson lesson_on(std::string_view text, const LessonOptions& options = options_for()) {
+  return Lesson({page_of(text)}, device_profile("desktop"), options);
+}
+
+/// All of an event but its place.
+auto said(const LessonEvent& event) {
+  return std::tuple(event.tick, event.kind, event.reason, event.hint, event.character, event.stroke, event.misses,
+                    event.pen_down);
+}
+
+/// A lesson with misses and commands at given ticks, looked at after every so many ticks.
+std::vector<LessonEvent> troubled_lesson(std::uint64_t ticks_per_look) {
+  Lesson lesson = lesson_on("三");
+  std::vector<LessonEvent> events;
+  Pupil pupil(lesson);
+  const auto look = [&] {
+    lesson.look();
+    for (LessonEvent event; lesson.take_event(event);) events.push_back(event);
+  };
+  pupil.on_tick = [&] {
+    if (pupil.ticks % ticks_per_look == 0) look();
+  };
+  using Kind = LessonCommandKind;
+  for (const LessonCommand& command : {LessonCommand{Kind::show, 100}, {Kind::skip, 3000}, {Kind::undo, 3500},
+                                       {Kind::pause, 4000}, {Kind::resume, 4500}, {Kind::skip, 9000}}) {
+    CHECK(lesson.send(command));
+  }
+  lesson.again(12'000);
+  pupil.write(pupil.backwards(0));
+  pupil.write(pupil.path(1));
+  for (std::size_t stroke = 0; stroke < 3; ++stroke) pupil.write(pupil.path(stroke));
+  while (pupil.ticks < 13'000) pupil.wait(0.01);
+  for (std::size_t stroke = 0; stroke < 3; ++stroke) pupil.write(pupil.path(stroke));
+  look();
+  return events;
+}
+
+}  // namespace
+
+TEST_CASE("what was written right is accepted, and what was not is refused with its reason", "[lesson]") {
+  Lesson lesson = lesson_on("三");
+  Pupil pupil(lesson);
+  CHECK(pupil.events() == "restarted 1");
+  pupil.write(pupil.backwards(0));
+  CHECK(pupil.events() == "refused backwards 1");
+  CHECK(lesson.look().reason == RefusalReason::backwards);
+  std::vector<Point> half = pupil.path(0);
+  half.resize(half.size() / 3);
+  pupil.write(half);
+  CHECK(pupil.events() == "begun 1, refused lifted_early 1, shown 1");
+  CHECK(lesson.look().demonstration.stroke == 0);
+  for (std::size_t stroke = 0; stroke < 3; ++stroke) pupil.write(pupil.path(stroke));
+  CHECK(pupil.events() == "begun 1, accepted 1, begun 2, accepted 2, begun 3, accepted 3, finished 3");
+  const LessonView& view = lesson.look();
+  CHECK(view.accepted == 3);
+  CHECK(view.right_at_once == 2);
+  CHECK(view.strokes[0].misses == 2);
+  std::vector<StrokeFate> fates;
+  for (const LessonInk& ink : view.ink) fates.push_back(ink.fate);
+  using enum StrokeFate;
+  CHECK(fates == std::vector<StrokeFate>{refused, refused, accepted, accepted, accepted});
+}
+
+TEST_CASE("a lesson decides the same however often it is looked at", "[lesson]") {
+  const std::vector<LessonEvent> events = troubled_lesson(1);
+  CHECK(events.size() > 20);
+  for (const std::uint64_t ticks_per_look : {std::uint64_t{16}, std::uint64_t{1000}}) {
+    const std::vector<LessonEvent> others = troubled_lesson(ticks_per_look);
+    CHECK(std::equal(events.begin(), events.end(), others.begin(), others.end(),
+                     [](const LessonEvent& a, const LessonEvent& b) { return said(a) == said(b); }));
+  }
+}
+
+TEST_CASE("a full queue loses events, and the view is right all the same", "[lesson]") {
+  Lesson lesson = lesson_on("三");
+  Pupil pupil(lesson);
+  for (int i = 0; i < 1100; ++i) {
+    lesson.send({LessonCommandKind::skip});
+    lesson.send({LessonCommandKind::undo});
+    pupil.wait(0.001);
+  }
+  pupil.write(pupil.path(0));
+  lesson.send({LessonCommandKind::skip});
+  pupil.wait(0.001);
+  const LessonView& view = lesson.look();
+  CHECK(view.lost_events > 1000);
+  CHECK(view.accepted == 1);
+  CHECK(view.skipped == 1);
+  CHECK(view.due == 2);
+  CHECK(view.ink.back().fate == StrokeFate::accepted);
+}
+
+TEST_CASE("a bounce, and a palm at any moment, is no miss", "[lesson]") {
+  Lesson lesson = lesson_on("三");
+  Pupil pupil(lesson);
+  pupil.write(pupil.path(0));
+  pupil.events();
+  const Point end = pupil.path(0).back();
+  pupil.speed = 1.0;
+  pupil.go(end, -0.001);
+  pupil.go(end, 0.004);
+  pupil.go(end, -0.001);
+  pupil.go(end, 0.004);
+  pupil.wait(0.3);
+  CHECK(lesson.look().strokes[1].misses == 1);  // of the first touch alone
+  pupil.speed = 0.1;
+  pupil.events();
+  for (const double share : {0.2, 0.5, 0.7}) {
+    const std::vector<Point> path = pupil.path(1);
+    pupil.go(path.front(), 0.005);
+    const auto part = static_cast<std::size_t>(share * static_cast<double>(path.size()));
+    for (std::size_t i = 0; i < part; ++i) pupil.go(path[i], -0.001);
+    lesson.ignore();
+    pupil.go(path[part], 0.005);
+    pupil.wait(0.3);
+    CHECK(pupil.events() == "begun 2, ignored 2");
+  }
+  pupil.write(pupil.path(1));
+  CHECK(pupil.events() == "begun 2, accepted 2");
+}
+
+TEST_CASE("another strength, mode or page begins once the pen is off the paper", "[lesson]") {
+  Lesson lesson = lesson_on("三");
+  Pupil pupil(lesson);
+  pupil.write(pupil.path(0));
+  LessonOptions changed = options_for();
+  changed.strength = 0.3;
+  const std::vector<Point> path = pupil.path(1);
+  pupil.go(path.front(), 0.005);
+  for (const Point& point : path) {
+    pupil.go(point, -0.001);
+    if (&point == &path[path.size() / 2]) lesson.change(changed);
+  }
+  pupil.go(path.back(), 0.005);
+  pupil.wait(0.3);
+  CHECK(pupil.events() == "restarted 1, begun 1, accepted 1, begun 2, accepted 2");
+  CHECK(lesson.look().due == 2);
+  changed.mode = LessonMode::watch;
+  lesson.change(changed);
+  pupil.wait(5.0);
+  CHECK(pupil.events() == "restarted 1, finished 3");
+  changed.mode = LessonMode::memory;
+  lesson.change(changed);
+  pupil.wait(0.02);
+  CHECK(lesson.look().due == 0);
+  CHECK_FALSE(lesson.look().strokes[0].is_shown);
+  lesson.begin({page_of("十"), page_of("人")});
+  pupil.wait(0.02);
+  CHECK(lesson.look().strokes.size() == 2);
+  CHECK(lesson.page().characters.front().character.code == U'十');
+  lesson.next();
+  pupil.wait(0.02);
+  lesson.look();
+  CHECK(lesson.page().characters.front().character.code == U'人');
+  changed.hint_time = -1.0;
+  CHECK_THROWS_AS(lesson.change(changed), ValueError);
+  CHECK(lesson.options().hint_time > 0.0);
+}
+
+TEST_CASE("guidance fades with success, and comes back with failure", "[lesson]") {
+  LessonOptions options = options_for();
+  options.renderer.guidance.assist.enabled = true;
+  Lesson lesson = lesson_on("三", options);
+  Pupil pupil(lesson);
+  for (std::size_t stroke = 0; stroke < 3; ++stroke) pupil.write(pupil.path(stroke));
+  const double faded = lesson.look().assistance;
+  CHECK(faded < 0.6);
+  lesson.again();
+  pupil.wait(0.1);
+  pupil.write(pupil.path(2));
+  CHECK(lesson.look().assistance > faded);
+  CHECK(lesson.look().assistance < 1.0);
+}
+
+TEST_CASE("whatever a pen and commands do, the counts add up and no force acts unseen", "[lesson]") {
+  constexpr int steps = calligraphy_test::sanitized ? 200'000 : 1'000'000;
+  LessonOptions options = options_for();
+  Lesson lesson = lesson_on("三十", options);
+  Random random(7);
+  const auto below = [&](std::size_t count) {
+    return static_cast<std::size_t>(random.next() * static_cast<double>(count));
+  };
+  DeviceState state;
+  Eigen::Vector3d velocity(0, 0, 0), goal(0.08, 0.06, 0.005);
+  std::vector<Point> plan;  // of the hand on the paper, the next point last
+  state.position = goal;
+  std::size_t allocated = 0;
+  int wrong = 0, pushed = 0, unseen = 0;
+  std::array<int, 11> seen = {};
+  for (int step = 0; step < steps; ++step) {
+    if (random.next() < 1e-3) {
+      const PracticePage& page = lesson.page();
+      const LessonStroke& due = lesson.look().strokes[below(lesson.look().strokes.size())];
+      const PlacedCharacter& placed = page.characters[static_cast<std::size_t>(due.character)];
+      const Stroke stroke = strokes(placed.character)[static_cast<std::size_t>(due.stroke)];
+      plan = calligraphy_test::path_of(stroke, placed.placement, 1e-4);
+      if (random.next() < 0.8) std::reverse(plan.begin(), plan.end());
+      if (random.next() < 0.3) plan.resize(below(plan.size()) + 1);
+      goal = {plan.back().x(), plan.back().y(), 0.005};
+    } else if (!plan.empty() && (goal - state.position).norm() < 2e-3) {
+      goal = {plan.back().x() + 2e-4 * random.normal(), plan.back().y() + 2e-4 * random.normal(), -0.002};
+      plan.pop_back();
+      if (plan.empty()) goal.z() = 0.006;
+    }
+    const auto later = static_cast<std::uint64_t>(step) + below(50);
+    if (random.next() < 5e-4) lesson.send({static_cast<LessonCommandKind>(below(6)), later});
+    if (random.next() < 1e-4) lesson.send({LessonCommandKind::resume, later});
+    if (random.next() < 1e-4) {
+      options.mode = random.next() < 0.5 ? LessonMode::guided : static_cast<LessonMode>(below(5));
+      options.strength = 0.8 * random.next();
+      lesson.change(options, later);
+    }
+    velocity += 1e-3 * (9e3 * (goal - state.position) - 150.0 * velocity);
+    state.position += 1e-3 * velocity;
+    state.time += 1e-3;
+    state.status = random.next() < 1e-4 ? DeviceStatus::disconnected : DeviceStatus::ok;
+    const std::size_t before = calligraphy_test::allocations();
+    lesson.update(state);
+    allocated += calligraphy_test::allocations() - before;
+    const LessonView& view = lesson.look();
+    for (LessonEvent event; lesson.take_event(event);) ++seen[static_cast<std::size_t>(event.kind)];
+    const auto total = static_cast<int>(view.strokes.size());
+    const bool is_watched = view.mode == LessonMode::watch;
+    wrong += !is_watched && view.accepted + view.skipped + (total - view.due) != total;
+    for (const LessonStroke& stroke : view.strokes) {
+      wrong += !is_watched && (stroke.fate == StrokeFate::open) != (&stroke - view.strokes.data() >= view.due);
+    }
+    unseen = view.is_paused || is_watched ? unseen + 1 : 0;
+    pushed += unseen > 60 && lesson.force() != Eigen::Vector3d(0, 0, 0);
+  }
+  CHECK(allocated == 0);
+  CHECK(wrong == 0);
+  CHECK(pushed == 0);
+  CHECK(*std::min_element(seen.begin(), seen.end()) > 3);  // every kind of event
+}
+
+}  // namespace lesson_tests
