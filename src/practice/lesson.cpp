@@ -140,5 +140,6 @@ const PracticePage& Lesson::page() const noexcept { return desk_->seen().page; }
 const LessonOptions& Lesson::options() const noexcept { return desk_->options(); }
 bool Lesson::take_event(LessonEvent& event) noexcept { return desk_->take_event(event); }
 const Recording& Lesson::recording() const noexcept { return desk_->recording(); }
+LessonWriting Lesson::writing() const { return desk_->writing(); }
 
 }  // namespace calligraphy

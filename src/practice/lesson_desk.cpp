@@ -11,6 +11,7 @@ namespace calligraphy {
 namespace {
 
 constexpr std::size_t max_kept_events = 1024;  // for a caller who takes none
+constexpr double shortest_lift = 0.052;        // that no score takes for a bounce [s]
 
 }  // namespace
 
@@ -166,6 +167,54 @@ void LessonDesk::view_strokes() {
   const double time = demonstration_time(scene.strokes[static_cast<std::size_t>(state_.demonstrated)]);
   const double share = std::clamp((state_.time - state_.demonstrated_since) / time, 0.0, 1.0);
   view_.demonstration = {state_.demonstrated, share};
+}
+
+LessonWriting LessonDesk::writing() const {
+  LessonWriting writing;
+  writing.page = seen().page;
+  writing.strokes = view_.strokes;
+  for (const LessonEvent& attempt : attempts_) {
+    if (attempt.kind == LessonEventKind::refused) writing.attempts.push_back(attempt);
+  }
+  Recording& recording = writing.recording;
+  recording.rate = recording_.rate;
+  recording.page = recording_.page;
+  recording.law = recording_.law;
+  double added = 0.0;  // to the times
+  int pen_down = -1;
+  const auto is_known = [](const Point& hand) { return hand.allFinite(); };
+  const bool has_hand = std::all_of(hands_.begin(), hands_.end(), is_known);
+  for (std::size_t i = 0; i < writing.strokes.size(); ++i) {
+    const LessonStroke& stroke = writing.strokes[i];
+    if (stroke.fate != StrokeFate::accepted) continue;
+    const std::size_t before = recording.samples.size();
+    for (const LessonInk& ink : view_.ink) {
+      if (ink.pen_down != stroke.pen_down || ink.pen_down == pen_down) continue;
+      for (std::size_t k = ink.begin; k < ink.end; ++k) {
+        recording.samples.push_back(recording_.samples[k]);
+        recording.samples.back().events = TickEvent::none;
+        if (has_hand) writing.hands.push_back(hands_[k]);
+      }
+    }
+    if (recording.samples.empty()) continue;  // its ink was lost
+    if (before > 0 && before < recording.samples.size()) {
+      const double last = recording.samples[before - 1].time, first = recording.samples[before].time;
+      added = std::max(added, last + shortest_lift - first);
+    }
+    for (std::size_t k = before; k < recording.samples.size(); ++k) recording.samples[k].time += added;
+    pen_down = stroke.pen_down;
+    RecordedSample lift = recording.samples.back();
+    lift.state = InteractionState::separation;
+    lift.events = TickEvent::stroke_finished;
+    const bool is_last = i + 1 == writing.strokes.size() || writing.strokes[i + 1].character != stroke.character;
+    if (is_last) lift.events |= TickEvent::character_finished;
+    if (i + 1 == writing.strokes.size()) lift.events |= TickEvent::page_finished;
+    lift.character = stroke.character + (is_last ? 1 : 0);
+    lift.stroke = is_last ? 0 : stroke.stroke + 1;
+    recording.samples.push_back(lift);
+    if (has_hand) writing.hands.push_back(writing.hands.back());
+  }
+  return writing;
 }
 
 /// Whether the template of a stroke is to be seen.

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include <calligraphy/practice/lesson_score.hpp>
 #include <calligraphy/practice/lesson_view.hpp>
 #include <calligraphy/practice/recording.hpp>
 
@@ -51,12 +52,9 @@ class LessonDesk {
 
   /// Given how many ticks and events were lost on the way.
   const LessonView& view(std::uint64_t lost_ticks, std::uint64_t lost_events);
-  const LessonView& last_view() const noexcept { return view_; }
   const Recording& recording() const noexcept { return recording_; }
-  /// Where the pupil's hand was, of each sample of the recording.
-  const std::vector<Point>& hands() const noexcept { return hands_; }
-  /// What was refused, ignored or undone on this page.
-  const std::vector<LessonEvent>& attempts() const noexcept { return attempts_; }
+  /// As Lesson::writing().
+  LessonWriting writing() const;
 
  private:
   void begin_recording(std::uint32_t start);
@@ -73,10 +71,10 @@ class LessonDesk {
   LessonView view_;
   Recording recording_;
   std::uint32_t recorded_ = 0;  ///< LessonScene::start of the recording
-  std::vector<Point> hands_;
+  std::vector<Point> hands_;  ///< of the samples of the recording
   std::deque<LessonEvent> events_;
   std::uint64_t lost_events_ = 0;  ///< that the caller did not take in time
-  std::vector<LessonEvent> attempts_;
+  std::vector<LessonEvent> attempts_;  ///< what was refused, ignored or undone on this page
 };
 
 }  // namespace calligraphy

@@ -273,7 +273,7 @@ void LessonMachine::refuse(const PenDown& pen_down) noexcept {
     state_.reason = reason;
     state_.hint_place = pen_down.place;
   }
-  add(LessonEventKind::refused, state_.due, pen_down.number, reason);
+  add(LessonEventKind::refused, state_.due, pen_down.number, reason, pen_down.place);
   const AssistPolicy& assist = scene_->options.renderer.guidance.assist;
   if (assist.enabled && !pen_down.is_broken) {  // of a stroke that was broken off the renderer knows itself
     state_.assistance = assist.next(state_.assistance, assist.full_assistance_error);
@@ -387,7 +387,12 @@ void LessonMachine::finish() noexcept {
   add(LessonEventKind::finished, count() - 1, -1);
 }
 
-void LessonMachine::add(LessonEventKind kind, int index, int pen_down, RefusalReason reason) noexcept {
+void LessonMachine::add(LessonEventKind kind, int index, int pen_down) noexcept {
+  add(kind, index, pen_down, RefusalReason::none, state_.pen_tip);
+}
+
+void LessonMachine::add(LessonEventKind kind, int index, int pen_down, RefusalReason reason,
+                        const Point& place) noexcept {
   const StrokeOnPage& concerned = stroke(std::min(index, count() - 1));
   LessonEvent event;
   event.tick = state_.tick > 0 ? state_.tick - 1 : 0;
@@ -399,7 +404,7 @@ void LessonMachine::add(LessonEventKind kind, int index, int pen_down, RefusalRe
   event.stroke = concerned.stroke;
   event.misses = progress(std::min(index, count() - 1)).misses.load(std::memory_order_relaxed);
   event.pen_down = pen_down;
-  event.place = kind == LessonEventKind::refused ? state_.hint_place : state_.pen_tip;
+  event.place = place;
   events_->push(event);
 }
 

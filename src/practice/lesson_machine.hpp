@@ -144,7 +144,8 @@ class LessonMachine {
   bool set_due(int stroke) noexcept;
   void go_to_next() noexcept;
   void finish() noexcept;
-  void add(LessonEventKind kind, int stroke, int pen_down, RefusalReason reason = RefusalReason::none) noexcept;
+  void add(LessonEventKind kind, int stroke, int pen_down) noexcept;
+  void add(LessonEventKind kind, int stroke, int pen_down, RefusalReason reason, const Point& place) noexcept;
 
   int count() const noexcept { return static_cast<int>(scene_->strokes.size()); }
   const StrokeOnPage& stroke(int index) const noexcept { return scene_->strokes[static_cast<std::size_t>(index)]; }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ class Pupil {
   explicit Pupil(calligraphy::Lesson& lesson) : lesson_(lesson) {}
 
   std::function<void()> on_tick = [] {};
-  bool has_hand = false;  ///< the lesson is told where the hand is
+  std::optional<Point> beside_hand;  ///< the lesson is told that the hand is this far from the pen [m]
   double speed = 0.1;     ///< [m/s]
 
   const calligraphy::HapticTick& at(const Point& place, double z) {
@@ -28,7 +29,8 @@ class Pupil {
     ++ticks;
     place_ = place;
     height_ = z;
-    const calligraphy::HapticTick& tick = lesson_.update(state, has_hand ? &place_ : nullptr);
+    const Point hand = place + beside_hand.value_or(Point(0.0, 0.0));
+    const calligraphy::HapticTick& tick = lesson_.update(state, beside_hand ? &hand : nullptr);
     on_tick();
     return tick;
   }

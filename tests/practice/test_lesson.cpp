@@ -208,6 +208,49 @@ TEST_CASE("guidance fades with success, and comes back with failure", "[lesson]"
   CHECK(lesson.look().assistance < 1.0);
 }
 
+TEST_CASE("what is judged is what was written in the end, and attempts are counted", "[lesson]") {
+  Lesson lesson = lesson_on("三");
+  Pupil pupil(lesson);
+  for (int i = 0; i < 25; ++i) pupil.write(pupil.backwards(0));
+  for (std::size_t stroke = 0; stroke < 3; ++stroke) pupil.write(pupil.path(stroke));
+  lesson.look();
+  const LessonScore right = score_lesson(lesson.writing()).front();
+  CHECK(right.score.fidelity > 0.97);
+  CHECK(right.score.strokes_completed == 3);
+  CHECK(right.right_at_once == 2);
+  REQUIRE(right.remarks.size() == 1);
+  CHECK(lesson_remark_text(right.remarks[0], right.score.match.character) == "Stroke 1: 25 tries backwards.");
+  CHECK(lesson_remark_text(right.remarks[0], right.score.match.character, Language("zh")) == "第1笔：25次写反了方向。");
+
+  lesson.begin({page_of("永")});
+  pupil.wait(0.02);
+  lesson.look();
+  for (const std::size_t stroke : {0, 1, 2, 4, 4}) pupil.write(pupil.path(stroke));
+  lesson.send({LessonCommandKind::skip});
+  pupil.write(pupil.path(4));
+  CHECK(lesson.look().is_finished);
+  const LessonScore skipped = score_lesson(lesson.writing()).front();
+  CHECK(skipped.score.rms_error < 0.01 * lesson.page().characters.front().placement.em);
+  CHECK(skipped.score.strokes_written == 4);
+  std::string texts;
+  for (const LessonRemark& remark : skipped.remarks) {
+    texts += lesson_remark_text(remark, skipped.score.match.character) + "\n";
+  }
+  CHECK(texts == "Stroke 4 was skipped.\nStroke 4: 2 tries as another stroke.\n");
+}
+
+TEST_CASE("where the pupil's own hand is known, it is judged, and the error of the guided pen is told", "[lesson]") {
+  Lesson lesson = lesson_on("三");
+  Pupil pupil(lesson);
+  const double em = lesson.page().characters.front().placement.em;
+  pupil.beside_hand = Point(0.0, 0.03 * em);
+  for (std::size_t stroke = 0; stroke < 3; ++stroke) pupil.write(pupil.path(stroke));
+  lesson.look();
+  const LessonScore score = score_lesson(lesson.writing()).front();
+  CHECK(score.score.rms_error == Approx(0.03 * em).epsilon(0.05));
+  CHECK(score.guided_error < 0.002 * em);
+}
+
 TEST_CASE("whatever a pen and commands do, the counts add up and no force acts unseen", "[lesson]") {
   constexpr int steps = calligraphy_test::sanitized ? 200'000 : 1'000'000;
   LessonOptions options = options_for();
@@ -260,6 +303,13 @@ TEST_CASE("whatever a pen and commands do, the counts add up and no force acts u
     wrong += !is_watched && view.accepted + view.skipped + (total - view.due) != total;
     for (const LessonStroke& stroke : view.strokes) {
       wrong += !is_watched && (stroke.fate == StrokeFate::open) != (&stroke - view.strokes.data() >= view.due);
+    }
+    if (step % 1000 == 0) {
+      std::size_t inked = 0, judged = 0;
+      for (const LessonInk& ink : view.ink) inked += ink.fate == StrokeFate::accepted ? ink.end - ink.begin : 0;
+      const LessonWriting writing = lesson.writing();
+      for (const RecordedSample& sample : writing.recording.samples) judged += sample.events == TickEvent::none;
+      wrong += judged != inked;
     }
     unseen = view.is_paused || is_watched ? unseen + 1 : 0;
     pushed += unseen > 60 && lesson.force() != Eigen::Vector3d(0, 0, 0);

@@ -10,6 +10,7 @@
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/practice/lesson_event.hpp>
 #include <calligraphy/practice/lesson_options.hpp>
+#include <calligraphy/practice/lesson_score.hpp>
 #include <calligraphy/practice/lesson_view.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/recording.hpp>
@@ -69,8 +70,10 @@ class Lesson {
   const LessonView& look();
   /// Takes the next event; false if there is none. At most 1,024 wait.
   bool take_event(LessonEvent& event) noexcept;
-  /// Of this page, up to the last look().
+  /// Of this page, up to the last look(): every tick, or those on the paper.
   const Recording& recording() const noexcept;
+  /// What is to be judged of this page, up to the last look(): score_lesson(), in this thread or another.
+  LessonWriting writing() const;
 
  private:
   struct Loop;
