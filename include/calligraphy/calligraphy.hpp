@@ -54,6 +54,7 @@
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/mean_interval.hpp>
 #include <calligraphy/practice/page.hpp>
+#include <calligraphy/practice/pointer_lesson.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/recording_file.hpp>
 #include <calligraphy/practice/score.hpp>

@@ -60,8 +60,9 @@ void Lesson::Loop::obey() noexcept {
 
 void Lesson::Loop::record(const SessionTick& session, const HapticTick& tick, const DeviceState& input,
                           const Point* hand) noexcept {
-  const bool is_pushed = samples.push({session.sample(), hand ? *hand : Point(Point::Constant(not_measured)),
-                                       tick.to_start, tick.hint, machine.ink(), machine.scene().start});
+  const Point place = hand ? *hand : Point(Point::Constant(not_measured));
+  const bool is_pushed = samples.push({session.sample(), {place, input.stylus.pressure}, tick.to_start, tick.hint,
+                                       machine.ink(), machine.scene().start});
   if (records_all && is_pushed) inputs.push(session.input(input));
 }
 
@@ -93,6 +94,10 @@ const HapticTick& Lesson::update(const DeviceState& sample, const Point* hand) n
 
 const Eigen::Vector3d& Lesson::force() const noexcept { return loop_->machine.scene().session.force(); }
 void Lesson::ignore() noexcept { loop_->machine.take(LessonCommandKind::ignore); }
+bool Lesson::is_waiting() const noexcept {
+  return loop_->machine.is_waiting() || loop_->has_next || !loop_->commands.is_empty() ||
+         loop_->wanted.load(std::memory_order_relaxed) != &loop_->machine.scene();
+}
 std::exception_ptr Lesson::law_error() const { return loop_->machine.scene().session.error(); }
 
 bool Lesson::send(const LessonCommand& command) noexcept { return loop_->commands.push(command); }
@@ -140,6 +145,7 @@ const PracticePage& Lesson::page() const noexcept { return desk_->seen().page; }
 const LessonOptions& Lesson::options() const noexcept { return desk_->options(); }
 bool Lesson::take_event(LessonEvent& event) noexcept { return desk_->take_event(event); }
 const Recording& Lesson::recording() const noexcept { return desk_->recording(); }
+const std::vector<LessonHand>& Lesson::hands() const noexcept { return desk_->hands(); }
 LessonWriting Lesson::writing() const { return desk_->writing(); }
 
 }  // namespace calligraphy

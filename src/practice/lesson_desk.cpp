@@ -182,7 +182,7 @@ LessonWriting LessonDesk::writing() const {
   recording.law = recording_.law;
   double added = 0.0;  // to the times
   int pen_down = -1;
-  const auto is_known = [](const Point& hand) { return hand.allFinite(); };
+  const auto is_known = [](const LessonHand& hand) { return hand.place.allFinite(); };
   const bool has_hand = std::all_of(hands_.begin(), hands_.end(), is_known);
   for (std::size_t i = 0; i < writing.strokes.size(); ++i) {
     const LessonStroke& stroke = writing.strokes[i];
@@ -193,7 +193,7 @@ LessonWriting LessonDesk::writing() const {
       for (std::size_t k = ink.begin; k < ink.end; ++k) {
         recording.samples.push_back(recording_.samples[k]);
         recording.samples.back().events = TickEvent::none;
-        if (has_hand) writing.hands.push_back(hands_[k]);
+        if (has_hand) writing.hands.push_back(hands_[k].place);
       }
     }
     if (recording.samples.empty()) continue;  // its ink was lost

@@ -19,7 +19,7 @@ namespace calligraphy {
 /// A tick for the half that looks on.
 struct LessonSample {
   RecordedSample sample;
-  Point hand = Point::Zero();      ///< of the pupil; NaN: not known [m, page]
+  LessonHand hand = {};
   Point to_start = Point::Zero();  ///< HapticTick::to_start
   WritingHint hint = WritingHint::none;
   int pen_down = -1;        ///< number of the one whose ink it is; -1: none
@@ -53,6 +53,7 @@ class LessonDesk {
   /// Given how many ticks and events were lost on the way.
   const LessonView& view(std::uint64_t lost_ticks, std::uint64_t lost_events);
   const Recording& recording() const noexcept { return recording_; }
+  const std::vector<LessonHand>& hands() const noexcept { return hands_; }
   /// As Lesson::writing().
   LessonWriting writing() const;
 
@@ -71,7 +72,7 @@ class LessonDesk {
   LessonView view_;
   Recording recording_;
   std::uint32_t recorded_ = 0;  ///< LessonScene::start of the recording
-  std::vector<Point> hands_;  ///< of the samples of the recording
+  std::vector<LessonHand> hands_;  ///< of the samples of the recording
   std::deque<LessonEvent> events_;
   std::uint64_t lost_events_ = 0;  ///< that the caller did not take in time
   std::vector<LessonEvent> attempts_;  ///< what was refused, ignored or undone on this page

@@ -20,6 +20,9 @@ constexpr double bounce_length = 0.05;
 /// A stroke that was begun was followed if it was left this near to its end, or after so much of its length [em, 1].
 constexpr double near_end = 0.2, long_enough = 0.8;
 
+/// Within this time the last stroke of a page is decided, and the hint about another one is given [s].
+constexpr double longest_doubt = 1.2;
+
 /// Steps of which the length of a pen-down is made up [em].
 constexpr double length_step = 0.01;
 
@@ -125,6 +128,10 @@ void LessonMachine::enter(LessonScene& next) noexcept {
   add(LessonEventKind::restarted, 0, -1);
 }
 
+bool LessonMachine::is_waiting() const noexcept {
+  return state_.demonstrated >= 0 || (state_.undecided >= 0 && state_.time - last_lift_ < longest_doubt);
+}
+
 bool LessonMachine::take_change() noexcept { return std::exchange(has_changed_, false); }
 
 void LessonMachine::take(LessonCommandKind command) noexcept {
@@ -166,7 +173,7 @@ void LessonMachine::update(const HapticTick& tick) noexcept {
   if (state_.demonstrated >= 0) [[unlikely]] go_on_showing();
   if (tick.hint != WritingHint::none || hint_ != WritingHint::none) look_at_hint(tick);
   ink_ = -1;
-  if (state_.pen_down < 0) return;
+  if (state_.pen_down < 0 || state_.is_finished) return;
   const double em = scene_->strokes.front().em, step = length_step * em;
   const double square = (state_.pen_tip - current_.place).squaredNorm();
   if (square > step * step) {

@@ -106,6 +106,8 @@ class LessonMachine {
 
   LessonScene& scene() const noexcept { return *scene_; }
   const LessonState& state() const noexcept { return state_; }
+  /// Whether the passing of time may change it: nothing happens any more to a stroke that the next pen-down decides.
+  bool is_waiting() const noexcept;
   /// Whether the state has changed other than by the passing of time since the last call.
   bool take_change() noexcept;
   /// Where the pupil's own hand is on the paper [m, page].

@@ -51,6 +51,11 @@ class SampleQueue {
     return true;
   }
 
+  /// Whether pop() would find nothing. Call from the consumer only.
+  bool is_empty() const noexcept {
+    return begin_.load(std::memory_order_relaxed) == end_.load(std::memory_order_acquire);
+  }
+
   /// Number of values in a full queue, a power of two.
   std::size_t capacity() const noexcept { return mask_ + 1; }
   /// Number of values dropped so far. Thread-safe.

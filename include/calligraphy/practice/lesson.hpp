@@ -41,6 +41,9 @@ class Lesson {
   const Eigen::Vector3d& force() const noexcept;
   /// Says that what the pen-down that is going on has done, and will do, is no writing: LessonCommandKind::ignore.
   void ignore() noexcept;
+  /// Whether something is undecided, is being shown, or waits to be carried out, so that the passing of time alone may
+  /// change the lesson.
+  bool is_waiting() const noexcept;
   /// What the law threw first, or a ValueError that names it; null unless LessonView::has_failed. Not while another
   /// thread calls update().
   std::exception_ptr law_error() const;
@@ -72,6 +75,8 @@ class Lesson {
   bool take_event(LessonEvent& event) noexcept;
   /// Of this page, up to the last look(): every tick, or those on the paper.
   const Recording& recording() const noexcept;
+  /// The pupil's own hand at each of its samples.
+  const std::vector<LessonHand>& hands() const noexcept;
   /// What is to be judged of this page, up to the last look(): score_lesson(), in this thread or another.
   LessonWriting writing() const;
 

@@ -32,6 +32,12 @@ struct LessonStroke {
   bool is_shown = false;                ///< whether its template is to be seen
 };
 
+/// The pupil's own hand at a sample of Lesson::recording().
+struct LessonHand {
+  Point place = Point::Zero();  ///< NaN: not known, or where the pen is [m, page]
+  double pressure = 0.0;        ///< StylusState::pressure; NaN: not sensed [1]
+};
+
 /// Ink of one pen-down: samples of Lesson::recording().
 struct LessonInk {
   int pen_down = 0;                     ///< its number, from 0
