@@ -165,6 +165,32 @@ BENCHMARK_CAPTURE(tick_with, thermal_budget, thermal_budget);
 BENCHMARK_CAPTURE(tick_with, max_standstill, max_standstill);
 BENCHMARK_CAPTURE(tick_with, everything, everything);
 
+/// Cost of the decisions of a lesson: the whole page in one piece, alternating with the renderer alone.
+void tick_of_a_lesson(benchmark::State& state) {
+  const WrittenPage& written = written_page();
+  LessonOptions options;
+  options.renderer = RendererOptions::for_device(written.capabilities);
+  HapticRenderer plain(written.page.characters, written.mapping, written.capabilities, options.renderer);
+  const auto per_tick = [&](auto&& update) {
+    const auto start = Clock::now();
+    for (const DeviceState& sample : written.states) benchmark::DoNotOptimize(update(sample).force.data());
+    return nanoseconds(Clock::now() - start) / static_cast<double>(written.states.size());
+  };
+  std::vector<double> with, added;
+  for (auto _ : state) {
+    options.max_absence = 60.0;
+    Lesson lesson({written.page}, written.capabilities, options);
+    plain.restart();
+    with.push_back(per_tick([&](const DeviceState& sample) -> const HapticTick& { return lesson.update(sample); }));
+    added.push_back(with.back() -
+                    per_tick([&](const DeviceState& sample) -> const HapticTick& { return plain.update(sample); }));
+    benchmark::DoNotOptimize(lesson.look().accepted);
+  }
+  state.counters["ns_per_tick"] = percentile(with, 0.5);
+  state.counters["added_ns"] = percentile(added, 0.5);
+}
+BENCHMARK(tick_of_a_lesson);
+
 /// Cost of a call through the C interface: the whole page in one piece, alternating with C++.
 void tick_through_c(benchmark::State& state) {
   const WrittenPage& written = written_page();

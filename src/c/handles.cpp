@@ -52,7 +52,7 @@ Slot* slot_of(std::uintptr_t handle) noexcept {
 
 const char* to_string(Kind kind) noexcept {
   constexpr std::array names{"",      "set",       "page",  "device", "renderer", "servo",
-                             "match", "recording", "score", "stroke", "index",    "traces"};
+                             "match", "recording", "score", "stroke", "index",    "traces", "lesson"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -103,7 +103,7 @@ const std::shared_ptr<void>* find_handle(Kind kind, const void* handle) noexcept
 
 Kind kind_of_handle(const void* handle) noexcept {
   const auto kind = static_cast<Kind>(reinterpret_cast<std::uintptr_t>(handle) & kind_mask);
-  return kind != Kind{} && kind <= Kind::traces && find_handle(kind, handle) ? kind : Kind{};
+  return kind != Kind{} && kind <= Kind::lesson && find_handle(kind, handle) ? kind : Kind{};
 }
 
 }  // namespace calligraphy::c

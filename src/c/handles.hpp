@@ -19,7 +19,8 @@ enum class Kind : std::uintptr_t {
   score,
   stroke,
   index,
-  traces
+  traces,
+  lesson
 };
 
 /// "set", "page" ...

@@ -4,7 +4,9 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,7 +19,9 @@
 #include <calligraphy/judge/stroke_matching.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/character_set.hpp>
+#include <calligraphy/practice/lesson.hpp>
 #include <calligraphy/practice/page.hpp>
+#include <calligraphy/practice/pointer_lesson.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
@@ -99,8 +103,26 @@ struct TracesObject {
   std::string text;
 };
 
-/// By character.
-using Scores = std::vector<CharacterScore>;
+/// A score by character, and what the remarks of a lesson say, each once it was asked for.
+struct ScoreObject {
+  std::vector<CharacterScore> characters;
+  std::vector<LessonScore> lessons;  ///< empty: it is not of a lesson
+  bool has_hand = false;
+  std::mutex mutex;                                                       ///< guards `texts`
+  std::map<std::tuple<std::int32_t, std::int32_t, std::string>, std::string> texts;  ///< by character, remark, language
+};
+
+/// A lesson, either for a device of the caller's or with one that follows a pointer.
+struct LessonObject {
+  Capabilities device;
+  double scale = 1.0;  ///< of the mapping
+  std::optional<Lesson> own;
+  std::optional<PointerLesson> pointer;
+  LessonView view;   ///< as of the last look
+  std::string text;  ///< of the last hint
+
+  Lesson& lesson() noexcept { return pointer ? pointer->lesson() : *own; }
+};
 
 template <>
 inline constexpr Kind kind_of<CharacterSet> = Kind::set;
@@ -117,7 +139,9 @@ inline constexpr Kind kind_of<MatchObject> = Kind::match;
 template <>
 inline constexpr Kind kind_of<RecordingObject> = Kind::recording;
 template <>
-inline constexpr Kind kind_of<Scores> = Kind::score;
+inline constexpr Kind kind_of<ScoreObject> = Kind::score;
+template <>
+inline constexpr Kind kind_of<LessonObject> = Kind::lesson;
 template <>
 inline constexpr Kind kind_of<StrokeObject> = Kind::stroke;
 template <>
@@ -128,6 +152,9 @@ inline constexpr Kind kind_of<TracesObject> = Kind::traces;
 /// A character of a set in its standard order. @throws Refusal if the set does not have it, FormatError if it is
 /// damaged
 Character find_character(const CharacterSet& set, char32_t code);
+
+/// A lesson with a device that follows a pointer. @throws Refusal
+PointerLesson& pointer_lesson(const calligraphy_lesson* lesson);
 
 /// Where a stroke begins. The direction of a point is zero.
 Beginning start_of(const Stroke& stroke, const Placement& placement);

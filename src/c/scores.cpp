@@ -6,7 +6,7 @@ namespace calligraphy::c {
 namespace {
 
 const CharacterScore& score_of(const calligraphy_score* score, std::int32_t character) {
-  return item("character", object<Scores>(score), character);
+  return item("character", object<ScoreObject>(score).characters, character);
 }
 
 calligraphy_character_score in_c(const CharacterScore& from) {
@@ -78,7 +78,9 @@ calligraphy_status calligraphy_score_recording(const calligraphy_recording* reco
     const auto& [page, written] = object<RecordingObject>(recording);
     const auto tolerances = tolerances_of<JudgeTolerances>(tolerance);
     target(score, "score");
-    hand_out(score, std::make_shared<Scores>(score_page(*page, written, tolerances)));
+    auto made = std::make_shared<ScoreObject>();
+    made->characters = score_page(*page, written, tolerances);
+    hand_out(score, std::move(made));
   });
 }
 

@@ -24,10 +24,8 @@ inline calligraphy_status without_force(calligraphy_tick* tick, calligraphy_stat
   return failure;
 }
 
-/// Fills all members of a tick except its size.
-inline void fill_tick(const RendererObject& renderer, calligraphy_tick* to) noexcept {
-  const HapticTick& from = renderer.renderer.last();
-  const Beginning& next = renderer.next(from);
+/// Fills all members of a tick except its size. `next`: where the stroke that is due begins.
+inline void fill_tick(const HapticTick& from, const Beginning& next, calligraphy_tick* to) noexcept {
   to->status = static_cast<std::int32_t>(from.status);
   to->state = static_cast<std::int32_t>(from.state);
   to->events = static_cast<std::uint32_t>(from.events);
@@ -62,12 +60,13 @@ inline void fill_tick(const RendererObject& renderer, calligraphy_tick* to) noex
 
 /// Writes the renderer's last tick to a struct that check_size() has accepted. Does not allocate.
 inline void write_tick(const RendererObject& renderer, calligraphy_tick* to) noexcept {
+  const HapticTick& from = renderer.renderer.last();
   if (to->size >= sizeof(calligraphy_tick)) {  // in place: a copy would be half the cost of the call
-    fill_tick(renderer, to);
+    fill_tick(from, renderer.next(from), to);
     clear_rest(to);
   } else {
     calligraphy_tick tick;
-    fill_tick(renderer, &tick);
+    fill_tick(from, renderer.next(from), &tick);
     put_struct(to, tick);
   }
 }

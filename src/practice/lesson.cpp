@@ -94,8 +94,9 @@ const HapticTick& Lesson::update(const DeviceState& sample, const Point* hand) n
 
 const Eigen::Vector3d& Lesson::force() const noexcept { return loop_->machine.scene().session.force(); }
 void Lesson::ignore() noexcept { loop_->machine.take(LessonCommandKind::ignore); }
-bool Lesson::is_waiting() const noexcept {
-  return loop_->machine.is_waiting() || loop_->has_next || !loop_->commands.is_empty() ||
+bool Lesson::is_waiting() const noexcept { return loop_->machine.is_waiting(); }
+bool Lesson::has_commands() const noexcept {
+  return loop_->has_next || !loop_->commands.is_empty() ||
          loop_->wanted.load(std::memory_order_relaxed) != &loop_->machine.scene();
 }
 std::exception_ptr Lesson::law_error() const { return loop_->machine.scene().session.error(); }

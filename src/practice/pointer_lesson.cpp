@@ -66,14 +66,12 @@ void PointerLesson::move(const PointerSample& sample) {
 /// advance() fall.
 void PointerLesson::advance(double time) {
   if (!std::isfinite(time)) return;
-  if (samples_.empty() && time_ < 0.0 && !std::isfinite(time_)) return;  // nothing has happened yet
-  const double begin = time - longest_advance;
   while (true) {
     if (is_at_rest()) {
-      if (samples_.empty()) return;
-      time_ = std::max(time_, samples_.front().time - period);
+      if (samples_.empty() && !lesson_.has_commands()) return;
+      time_ = std::max(time_, (samples_.empty() ? time : samples_.front().time) - period);
     }
-    time_ = std::max(time_, begin);
+    time_ = std::max(time_, time - longest_advance);
     if (time_ + period > time) return;
     time_ += period;
     while (!samples_.empty() && samples_.front().time <= time_) {
@@ -85,7 +83,9 @@ void PointerLesson::advance(double time) {
   }
 }
 
-bool PointerLesson::is_busy() const noexcept { return !samples_.empty() || !is_at_rest(); }
+bool PointerLesson::is_busy() const noexcept {
+  return !samples_.empty() || lesson_.has_commands() || !is_at_rest();
+}
 
 /// No time need be spent before the next sample.
 bool PointerLesson::is_at_rest() const noexcept {

@@ -735,6 +735,245 @@ CALLIGRAPHY_API calligraphy_status calligraphy_servo_release(calligraphy_servo* 
 CALLIGRAPHY_API calligraphy_status calligraphy_servo_read_state(const calligraphy_servo* servo,
                                                                 calligraphy_servo_state* state);
 
+// Lessons: what a teacher does (docs/lesson.md).
+
+/// Follows a pupil through the strokes of a page: counts misses, gives hints, shows strokes, and keeps what was written.
+/// calligraphy_lesson_update() may be called by another thread than all the rest, which changes no decision.
+typedef struct calligraphy_lesson calligraphy_lesson;
+
+/// What a lesson shows, and whether it guides the pen.
+typedef enum calligraphy_lesson_mode {
+  CALLIGRAPHY_LESSON_GUIDED = 0,       ///< shows all strokes, and guides
+  CALLIGRAPHY_LESSON_VISION = 1,       ///< shows all strokes
+  CALLIGRAPHY_LESSON_NEXT_STROKE = 2,  ///< shows the stroke that is due, and guides
+  CALLIGRAPHY_LESSON_MEMORY = 3,       ///< shows nothing before it was missed
+  CALLIGRAPHY_LESSON_WATCH = 4         ///< writes the strokes itself: the pen does nothing and feels nothing
+} calligraphy_lesson_mode;
+
+/// How a lesson is held.
+typedef struct calligraphy_lesson_options {
+  uint32_t size;               ///< sizeof(calligraphy_lesson_options)
+  int32_t mode;                ///< a calligraphy_lesson_mode
+  int32_t misses_until_shown;  ///< a stroke that was missed so often is shown and written once; 0: never
+  int32_t own_guidance;        ///< 1: guide as the options of the renderer say, whatever `strength`
+  /// Share of the way to the stroke over which a hand is pulled, from 0 to 0.95 [1].
+  double strength;
+  double hint_time;            ///< time for which a hint must hold before it is given [s]
+} calligraphy_lesson_options;
+
+/// A lesson on a page, with a device that calligraphy_lesson_update() gets the samples of. Null `mapping`: upright, scale
+/// 1; null `options`: those of CALLIGRAPHY_PRESET_DEVICE; null `held`: guided as those say, shown after 2 misses, hints
+/// after 0.25 s.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_create(const calligraphy_page* page,
+                                                             const calligraphy_mapping* mapping,
+                                                             const calligraphy_capabilities* capabilities,
+                                                             const calligraphy_renderer_options* options,
+                                                             const calligraphy_lesson_options* held,
+                                                             calligraphy_lesson** lesson);
+
+/// A lesson for a mouse, a finger or the pen of a tablet, with a simulated device of its own that follows it:
+/// calligraphy_lesson_move_pointer() and calligraphy_lesson_advance() take the place of calligraphy_lesson_update().
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_create_for_pointer(const calligraphy_page* page,
+                                                                         const calligraphy_capabilities* capabilities,
+                                                                         const calligraphy_renderer_options* options,
+                                                                         const calligraphy_lesson_options* held,
+                                                                         calligraphy_lesson** lesson);
+
+/// Processes one sample, as calligraphy_renderer_update(); the tick's next_start and next_direction are zero. `hand`:
+/// where the pupil's own hand is, if that is known and differs from the pen, x and y [m, page]; or null.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_update(calligraphy_lesson* lesson,
+                                                             const calligraphy_device_state* state, const double* hand,
+                                                             calligraphy_tick* tick);
+
+/// Kind of a pointer, as in Pointer Events.
+typedef enum calligraphy_pointer_kind {
+  CALLIGRAPHY_POINTER_MOUSE = 0,  ///< a mouse
+  CALLIGRAPHY_POINTER_TOUCH = 1,  ///< a finger
+  CALLIGRAPHY_POINTER_PEN = 2     ///< the pen of a tablet
+} calligraphy_pointer_kind;
+
+/// What a pointer does at a time.
+typedef struct calligraphy_pointer_sample {
+  uint32_t size;         ///< sizeof(calligraphy_pointer_sample)
+  int32_t kind;          ///< a calligraphy_pointer_kind
+  int32_t id;            ///< tells fingers from each other
+  int32_t is_down;       ///< whether it writes
+  int32_t is_cancelled;  ///< the system has taken it: what it did since it was put down is no writing
+  uint32_t buttons;      ///< bits of calligraphy_button, or 0
+  double time;           ///< of any clock that does not go back [s]
+  double place[2];       ///< on the page [m]
+} calligraphy_pointer_sample;
+
+/// Keeps a sample of a pointer until its time has come. `stylus`: what a pen senses besides, or null.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_move_pointer(calligraphy_lesson* lesson,
+                                                                   const calligraphy_pointer_sample* sample,
+                                                                   const calligraphy_stylus* stylus);
+
+/// Goes on to a time [s], before a picture is drawn. `busy`: whether time matters, because the pen writes, or something
+/// is in doubt or is being shown; otherwise this need not be called again before the next sample.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_advance(calligraphy_lesson* lesson, double time, int32_t* busy);
+
+/// What a lesson can be asked to do while it goes on.
+typedef enum calligraphy_lesson_command {
+  CALLIGRAPHY_LESSON_SKIP = 0,    ///< pass over the stroke that is due
+  CALLIGRAPHY_LESSON_UNDO = 1,    ///< make the last stroke due again
+  CALLIGRAPHY_LESSON_SHOW = 2,    ///< show the stroke that is due, and write it once
+  CALLIGRAPHY_LESSON_PAUSE = 3,   ///< no force, and what the pen does is not seen
+  CALLIGRAPHY_LESSON_RESUME = 4,  ///< go on after a pause
+  CALLIGRAPHY_LESSON_IGNORE = 5   ///< what the pen-down that is going on does is no writing
+} calligraphy_lesson_command;
+
+/// Asks for something, before the next sample. CALLIGRAPHY_TOO_SMALL if 64 commands wait already.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_send(calligraphy_lesson* lesson, int32_t command);
+
+/// Begins the page again, once the pen is off the paper.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_again(calligraphy_lesson* lesson);
+
+/// Begins another page, likewise.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_begin(calligraphy_lesson* lesson, const calligraphy_page* page);
+
+/// Changes options; nulls as in calligraphy_lesson_create(). Another mode begins the page again; otherwise what was
+/// written stays, and the change takes effect once the pen is off the paper and nothing is in doubt.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_change(calligraphy_lesson* lesson,
+                                                             const calligraphy_renderer_options* options,
+                                                             const calligraphy_lesson_options* held);
+
+/// Why a pen-down did not write the stroke that is due.
+typedef enum calligraphy_refusal_reason {
+  CALLIGRAPHY_REFUSAL_NONE = 0,             ///< it was not refused
+  CALLIGRAPHY_REFUSAL_TOO_SHORT = 1,        ///< lifted before it could be told what it writes
+  CALLIGRAPHY_REFUSAL_BACKWARDS = 2,        ///< from the stroke's end to its start
+  CALLIGRAPHY_REFUSAL_LIFTED_EARLY = 3,     ///< along the stroke, but not to its end
+  CALLIGRAPHY_REFUSAL_NOT_ALONG = 4,        ///< begun as the stroke, but not written along it
+  CALLIGRAPHY_REFUSAL_TOO_FAR = 5,          ///< begun too far from the start
+  CALLIGRAPHY_REFUSAL_AT_END = 6,           ///< begun at the stroke's end
+  CALLIGRAPHY_REFUSAL_IN_MIDDLE = 7,        ///< begun in the middle of the stroke
+  CALLIGRAPHY_REFUSAL_WRONG_DIRECTION = 8,  ///< begun at the start, but in another direction
+  CALLIGRAPHY_REFUSAL_ANOTHER_STROKE = 9    ///< another stroke was begun
+} calligraphy_refusal_reason;
+
+/// A lesson as it is, for whoever draws it.
+typedef struct calligraphy_lesson_view {
+  uint32_t size;         ///< sizeof(calligraphy_lesson_view)
+  int32_t mode;          ///< a calligraphy_lesson_mode
+  int32_t due;           ///< index on the page of the stroke that is due; their number once there is none
+  int32_t stroke_count;  ///< number of strokes of the page
+  int32_t accepted;      ///< number of strokes that were written
+  int32_t skipped;       ///< number of strokes that were passed over
+  int32_t right_at_once;  ///< number of strokes that were accepted without a miss
+  int32_t is_finished;   ///< nothing is due, and the pen was lifted
+  int32_t is_paused;     ///< CALLIGRAPHY_LESSON_PAUSE
+  int32_t is_on_paper;   ///< the pen
+  int32_t shows_start;   ///< the start of the stroke that is due is to be marked
+  int32_t hint;          ///< the calligraphy_hint that was given last, until it is out of date
+  int32_t reason;        ///< the calligraphy_refusal_reason of the last pen-down, until it is out of date
+  int32_t demonstrated;  ///< index on the page of the stroke that the lesson writes; -1: none
+  int32_t ink_count;     ///< number of pieces of ink: calligraphy_lesson_ink
+  int32_t reserved;      ///< 0
+  uint64_t tick;         ///< samples so far
+  uint64_t lost_ticks;   ///< that are missing from the ink, since the lesson was looked at late
+  uint64_t lost_events;  ///< that did not fit into the queue
+  double time;           ///< of the last sample [s]
+  double pen_tip[2];     ///< of the pen, guided [m, page]
+  double hand[2];        ///< where the pupil's own hand is; NaN: not known [m, page]
+  double start[2];       ///< of the stroke that is due [m, page]
+  double direction[2];   ///< unit vector in which it sets out
+  double hint_place[2];  ///< where the pen was when the hint or the reason was given [m, page]
+  double demonstrated_share;  ///< of the length of the stroke that the lesson writes [1]
+  double assistance;     ///< factor on the guidance [1]
+} calligraphy_lesson_view;
+
+/// Takes over what has happened, and says how things are. What the functions below read is as of this call.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_look(calligraphy_lesson* lesson, calligraphy_lesson_view* view);
+
+/// What became of a stroke, or of ink.
+typedef enum calligraphy_stroke_fate {
+  CALLIGRAPHY_FATE_OPEN = 0,      ///< still to be written; ink: nothing is decided yet
+  CALLIGRAPHY_FATE_ACCEPTED = 1,  ///< written
+  CALLIGRAPHY_FATE_SKIPPED = 2,   ///< passed over
+  CALLIGRAPHY_FATE_REFUSED = 3,   ///< ink of a pen-down that did not write the stroke that was due
+  CALLIGRAPHY_FATE_IGNORED = 4    ///< ink of a pen-down that was no writing
+} calligraphy_stroke_fate;
+
+/// A stroke of the page.
+typedef struct calligraphy_lesson_stroke {
+  uint32_t size;      ///< sizeof(calligraphy_lesson_stroke)
+  int32_t character;  ///< index on the page of its character
+  int32_t stroke;     ///< index within it
+  int32_t fate;       ///< a calligraphy_stroke_fate
+  int32_t misses;     ///< pen-downs that were to write it, and did not
+  int32_t pen_down;   ///< number of the pen-down that wrote it; -1: none
+  int32_t is_shown;   ///< its template is to be seen
+  int32_t reserved;   ///< 0
+} calligraphy_lesson_stroke;
+
+/// The stroke with this index on the page.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_read_stroke(const calligraphy_lesson* lesson, int32_t index,
+                                                                  calligraphy_lesson_stroke* stroke);
+
+/// A piece of ink, of one pen-down.
+typedef struct calligraphy_lesson_ink {
+  uint32_t size;       ///< sizeof(calligraphy_lesson_ink)
+  int32_t pen_down;    ///< number of the pen-down
+  int32_t begin;       ///< index of its first point
+  int32_t end;         ///< index behind its last point
+  int32_t fate;        ///< a calligraphy_stroke_fate
+  int32_t is_doubted;  ///< open, and the next pen-down decides: perhaps it was lifted too early
+} calligraphy_lesson_ink;
+
+/// The piece of ink with this index.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_read_ink(const calligraphy_lesson* lesson, int32_t index,
+                                                               calligraphy_lesson_ink* ink);
+
+/// Points of ink from an index on: of each 6 numbers, x and y of the pen tip, x and y of the pupil's own hand [m, page],
+/// the time [s] and the pressure of the pen [1], NaN where they are not known. `capacity`: of the array, in points;
+/// `count`: how many were written.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_ink_points(const calligraphy_lesson* lesson, int32_t begin,
+                                                                 double* ink, size_t capacity, size_t* count);
+
+/// What happens in a lesson.
+typedef enum calligraphy_lesson_event_kind {
+  CALLIGRAPHY_LESSON_BEGUN = 0,      ///< the first stretch of a stroke was written
+  CALLIGRAPHY_LESSON_ACCEPTED = 1,   ///< a stroke was written
+  CALLIGRAPHY_LESSON_REFUSED = 2,    ///< a pen-down did not write the stroke that is due: a miss
+  CALLIGRAPHY_LESSON_IGNORED = 3,    ///< a pen-down was no writing, such as a bounce or a palm
+  CALLIGRAPHY_LESSON_HINTED = 4,     ///< a hint has lasted long enough to be given
+  CALLIGRAPHY_LESSON_SHOWN = 5,      ///< the stroke that is due is shown, and written once
+  CALLIGRAPHY_LESSON_SKIPPED = 6,    ///< a stroke was passed over
+  CALLIGRAPHY_LESSON_UNDONE = 7,     ///< a stroke is due again
+  CALLIGRAPHY_LESSON_DECLINED = 8,   ///< a command could not be carried out
+  CALLIGRAPHY_LESSON_RESTARTED = 9,  ///< a page has been begun
+  CALLIGRAPHY_LESSON_FINISHED = 10   ///< every stroke was accepted or skipped, and the pen lifted
+} calligraphy_lesson_event_kind;
+
+/// Something that happened in a lesson.
+typedef struct calligraphy_lesson_event {
+  uint32_t size;      ///< sizeof(calligraphy_lesson_event)
+  int32_t kind;       ///< a calligraphy_lesson_event_kind
+  int32_t reason;     ///< a calligraphy_refusal_reason
+  int32_t hint;       ///< a calligraphy_hint
+  int32_t character;  ///< index on the page of the character concerned
+  int32_t stroke;     ///< index within it of the stroke concerned
+  int32_t misses;     ///< of that stroke so far
+  int32_t pen_down;   ///< number of the pen-down concerned; -1: none
+  uint64_t tick;      ///< number of the sample with which it happened
+  double time;        ///< of that sample [s]
+  double place[2];    ///< where the pen was, or was lifted [m, page]
+} calligraphy_lesson_event;
+
+/// Takes the next event; `found` is 0 if there is none. At most 1,024 wait.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_take_event(calligraphy_lesson* lesson,
+                                                                 calligraphy_lesson_event* event, int32_t* found);
+
+/// The words for the hint, or for the reason, of the last view: "backwards: the stroke begins here"; empty without one.
+/// `language` as in calligraphy_hint_text(). Valid until the next call for this lesson.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_hint_text(calligraphy_lesson* lesson, const char* language,
+                                                                const char** text);
+
+/// What is to be judged, as numbers that another thread, or another process, can be given. Null `numbers`: only `count`.
+CALLIGRAPHY_API calligraphy_status calligraphy_lesson_writing(const calligraphy_lesson* lesson, double* numbers,
+                                                              size_t capacity, size_t* count);
+
 // What was written.
 
 /// The characters of a set, in all their forms, prepared for comparison with a pen. Any number of threads may use it.
@@ -997,6 +1236,55 @@ CALLIGRAPHY_API calligraphy_status calligraphy_score_pen_down(const calligraphy_
 /// Which stroke each pen-down of a character wrote, with remarks.
 CALLIGRAPHY_API calligraphy_status calligraphy_score_match(const calligraphy_score* score, int32_t character,
                                                            calligraphy_match** match);
+
+/// Scores what calligraphy_lesson_writing() returned of a lesson on a page: of the pupil's own hand where it is known,
+/// and apart from the attempts.
+CALLIGRAPHY_API calligraphy_status calligraphy_score_writing(const calligraphy_page* page, const double* numbers,
+                                                             size_t size, int32_t tolerance, calligraphy_score** score);
+
+/// What a score of a lesson says besides.
+typedef struct calligraphy_lesson_score {
+  uint32_t size;          ///< sizeof(calligraphy_lesson_score)
+  int32_t accepted;       ///< number of strokes that were written
+  int32_t skipped;        ///< number of strokes that were passed over
+  int32_t right_at_once;  ///< number of strokes that were accepted without a miss
+  int32_t remark_count;   ///< number of remarks, the gravest first; a pupil should hear 3 at once
+  int32_t has_hand;       ///< the score is of the pupil's own hand
+  double guided_error;    ///< RMS error of the pen that was guided, if so; otherwise NaN [m]
+} calligraphy_lesson_score;
+
+/// Of a character of a score that calligraphy_score_writing() made.
+CALLIGRAPHY_API calligraphy_status calligraphy_score_lesson(const calligraphy_score* score, int32_t character,
+                                                            calligraphy_lesson_score* lesson);
+
+/// What a remark on a lesson is about.
+typedef enum calligraphy_lesson_remark_kind {
+  CALLIGRAPHY_LESSON_REMARK_SKIPPED = 0,  ///< strokes that were passed over
+  CALLIGRAPHY_LESSON_REMARK_WRITTEN = 1,  ///< what was written in the end
+  CALLIGRAPHY_LESSON_REMARK_ATTEMPTS = 2  ///< pen-downs that were refused
+} calligraphy_lesson_remark_kind;
+
+/// A remark on a lesson, in which those that are alike are one.
+typedef struct calligraphy_lesson_remark {
+  uint32_t size;         ///< sizeof(calligraphy_lesson_remark)
+  int32_t kind;          ///< a calligraphy_lesson_remark_kind
+  int32_t remark;        ///< the calligraphy_remark_kind of CALLIGRAPHY_LESSON_REMARK_WRITTEN
+  int32_t reason;        ///< the calligraphy_refusal_reason of CALLIGRAPHY_LESSON_REMARK_ATTEMPTS
+  int32_t count;         ///< number of strokes skipped, of remarks that are one, or of attempts
+  int32_t stroke_count;  ///< number of strokes that it is about
+  double place[2];       ///< where to point, in the square of the character [em]
+} calligraphy_lesson_remark;
+
+/// The remark with this index. `strokes`, unless null, gets the strokes that it is about, as many as fit into
+/// `capacity`.
+CALLIGRAPHY_API calligraphy_status calligraphy_score_lesson_remark(const calligraphy_score* score, int32_t character,
+                                                                   int32_t index, calligraphy_lesson_remark* remark,
+                                                                   int32_t* strokes, size_t capacity);
+
+/// What it says, in a language as in calligraphy_match_remark_text(); valid as long as the score.
+CALLIGRAPHY_API calligraphy_status calligraphy_score_lesson_remark_text(const calligraphy_score* score,
+                                                                        int32_t character, int32_t index,
+                                                                        const char* language, const char** text);
 
 // Pen traces.
 

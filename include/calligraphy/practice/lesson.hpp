@@ -41,9 +41,10 @@ class Lesson {
   const Eigen::Vector3d& force() const noexcept;
   /// Says that what the pen-down that is going on has done, and will do, is no writing: LessonCommandKind::ignore.
   void ignore() noexcept;
-  /// Whether something is undecided, is being shown, or waits to be carried out, so that the passing of time alone may
-  /// change the lesson.
+  /// Whether something is undecided or is being shown, so that the passing of time alone may change the lesson.
   bool is_waiting() const noexcept;
+  /// Whether something was asked for that has not been carried out yet.
+  bool has_commands() const noexcept;
   /// What the law threw first, or a ValueError that names it; null unless LessonView::has_failed. Not while another
   /// thread calls update().
   std::exception_ptr law_error() const;
