@@ -524,7 +524,7 @@ function leastLength(element, parameters, values, i) {
   }
   const next = parameters.findIndex(([, type], other) => other > i && !isArray(type));
   if (["capacity", "size", "path_count"].includes(parameters[next]?.[0])) {
-    return values[next] * ({ points: 2, samples: 9 }[name] ?? 1);
+    return values[next] * ({ points: 2, samples: 9, ink: 6 }[name] ?? 1);
   }
   return element === "Float64" ? 3 : 1;  // a position, a velocity or a force; or a number
 }

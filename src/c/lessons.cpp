@@ -225,8 +225,9 @@ calligraphy_status calligraphy_lesson_update(calligraphy_lesson* lesson, const c
   if (const calligraphy_status status = check_given(state, "calligraphy_device_state")) {
     return without_force(tick, status);
   }
-  const Point place = hand ? Point(hand[0], hand[1]) : Point(0.0, 0.0);
-  const HapticTick& result = found->own->update(state_of(state), hand ? &place : nullptr);
+  LessonHand known;
+  if (hand) known.place = Point(hand[0], hand[1]);
+  const HapticTick& result = found->own->update(state_of(state), hand ? &known : nullptr);
   write_lesson_tick(result, found->own->force(), tick);
   return CALLIGRAPHY_OK;
 }

@@ -30,7 +30,8 @@ struct Lesson::Loop {
         records_all(records_every_tick) {}
 
   void obey() noexcept;
-  void record(const SessionTick& session, const HapticTick& tick, const DeviceState& input, const Point* hand) noexcept;
+  void record(const SessionTick& session, const HapticTick& tick, const DeviceState& input,
+              const LessonHand* hand) noexcept;
 
   SampleQueue<LessonCommand> commands;
   SampleQueue<LessonEvent> events;
@@ -59,10 +60,11 @@ void Lesson::Loop::obey() noexcept {
 }
 
 void Lesson::Loop::record(const SessionTick& session, const HapticTick& tick, const DeviceState& input,
-                          const Point* hand) noexcept {
-  const Point place = hand ? *hand : Point(Point::Constant(not_measured));
-  const bool is_pushed = samples.push({session.sample(), {place, input.stylus.pressure}, tick.to_start, tick.hint,
-                                       machine.ink(), machine.scene().start});
+                          const LessonHand* hand) noexcept {
+  LessonHand known = hand ? *hand : LessonHand();
+  known.pressure = input.stylus.pressure;
+  const bool is_pushed = samples.push({session.sample(), known, tick.to_start, tick.hint, machine.ink(),
+                                       machine.scene().start});
   if (records_all && is_pushed) inputs.push(session.input(input));
 }
 
@@ -72,7 +74,7 @@ Lesson::Lesson(std::vector<PracticePage> pages, const Capabilities& device, cons
 
 Lesson::~Lesson() = default;
 
-const HapticTick& Lesson::update(const DeviceState& sample, const Point* hand) noexcept {
+const HapticTick& Lesson::update(const DeviceState& sample, const LessonHand* hand) noexcept {
   Loop& loop = *loop_;
   LessonMachine& machine = loop.machine;
   loop.obey();
@@ -85,7 +87,7 @@ const HapticTick& Lesson::update(const DeviceState& sample, const Point* hand) n
     seen = &silent;
   }
   const HapticTick& tick = session.update(*seen);
-  if (hand) machine.set_hand(*hand);
+  if (hand) machine.set_hand(hand->place);
   machine.update(tick);
   if (machine.ink() >= 0 || tick.events != TickEvent::none || loop.records_all) loop.record(session, tick, *seen, hand);
   if (machine.take_change() || machine.state().tick % ticks_of_a_look == 0) loop.states.publish(machine.state());

@@ -193,7 +193,9 @@ LessonWriting LessonDesk::writing() const {
       for (std::size_t k = ink.begin; k < ink.end; ++k) {
         recording.samples.push_back(recording_.samples[k]);
         recording.samples.back().events = TickEvent::none;
-        if (has_hand) writing.hands.push_back(hands_[k].place);
+        if (!has_hand) continue;
+        writing.hands.push_back(hands_[k].place);
+        if (std::isfinite(hands_[k].time)) recording.samples.back().time = hands_[k].time;
       }
     }
     if (recording.samples.empty()) continue;  // its ink was lost

@@ -13,6 +13,8 @@ constexpr double hand_fade_in = 0.03;  // of guidance: no real hand is thrown by
 constexpr double pressed = 0.5;        // pressure of a pen on the paper, whatever its own: it must touch the paper
 
 constexpr double period = 1e-3;         // of a tick [s]
+constexpr double clock_step = 1e-6;     // times that differ by less are the same [s]
+constexpr double delay = 0.016;         // of the pen behind the pointer, when it touches the paper and along it [s]
 constexpr double palm_time = 1.5;       // for so long after a pen was seen, a touch is the hand that holds it [s]
 constexpr double longest_bounce = 0.15;  // a pointer that is put down this near, the pen still on the paper, goes on [em]
 constexpr double away = 0.01;            // a pointer that is put down this far from the pen was not seen coming [em]
@@ -51,9 +53,8 @@ PointerLesson::PointerLesson(std::vector<PracticePage> pages, const LessonOption
 PointerLesson::PointerLesson(const LessonOptions& options, std::vector<PracticePage> pages, const Capabilities& device)
     : device_(device, pointer_grip, following(options)), lesson_(std::move(pages), device_.capabilities(), options) {
   pointer_.place = Point(0.5 * lesson_.page().width, 0.5 * lesson_.page().height);
-  places_.fill(pointer_.place);
   put(pointer_, false);
-  tick();
+  tick(0.0);
 }
 
 void PointerLesson::change(const LessonOptions& options) { lesson_.change(of_this_hand(options, {lesson_.page()})); }
@@ -74,12 +75,12 @@ void PointerLesson::advance(double time) {
     time_ = std::max(time_, time - longest_advance);
     if (time_ + period > time) return;
     time_ += period;
-    while (!samples_.empty() && samples_.front().time <= time_) {
+    while (!samples_.empty() && samples_.front().time <= time_ + clock_step) {
       const PointerSample sample = samples_.front();
       samples_.pop_front();
       if (takes(sample)) take(sample);
     }
-    tick();
+    tick(time_);
   }
 }
 
@@ -121,6 +122,7 @@ void PointerLesson::take(const PointerSample& sample) {
   if (sample.is_cancelled) is_ignored_ = true;
   is_down_ = sample.is_down;
   pointer_ = sample;
+  places_.emplace_back(std::max(sample.time, places_.empty() ? sample.time : places_.back().first), sample.place);
   put(sample, is_down_);
 }
 
@@ -130,18 +132,31 @@ void PointerLesson::put(const PointerSample& sample, bool is_down) {
 
 /// Lifts the pen and takes it to where a pointer is put down, in no time of the writer's.
 void PointerLesson::bring(const PointerSample& sample) {
-  for (int i = 0; i < longest_way && is_on_paper(); ++i) tick();
+  for (int i = 0; i < longest_way && is_on_paper(); ++i) tick(hand_time_);
   put(sample, false);
-  pointer_.place = sample.place;
-  for (int i = 0; i < longest_way; ++i) tick();
+  places_.clear();
+  places_.emplace_back(sample.time, sample.place);
+  for (int i = 0; i < longest_way; ++i) tick(hand_time_);
 }
 
-void PointerLesson::tick() {
-  const Point hand = std::exchange(places_[next_place_], pointer_.place);  // where it was when the pen set out for here
-  next_place_ = (next_place_ + 1) % delay;
+void PointerLesson::tick(double time) {
+  hand_time_ = time;
+  LessonHand hand;
+  hand.place = hand_at(time - delay);
+  hand.time = time;
   if (is_ignored_ && is_on_paper()) lesson_.ignore();
   tick_ = lesson_.update(device_.read(), &hand);
   device_.write(lesson_.force());
+}
+
+/// Where the pointer was, between its samples.
+Point PointerLesson::hand_at(double time) {
+  while (places_.size() > 1 && places_[1].first <= time) places_.pop_front();
+  if (places_.empty()) return pointer_.place;
+  const auto& [begin, from] = places_.front();
+  if (places_.size() == 1 || time <= begin) return from;
+  const auto& [end, to] = places_[1];
+  return from + (time - begin) / (end - begin) * (to - from);
 }
 
 }  // namespace calligraphy

@@ -22,6 +22,70 @@ function intendedPath(library, constants, page) {
 }
 
 /**
+ * A lesson written by pointers of every kind, with misses, a palm, a touch that the system takes, a bounce and commands.
+ * @returns {number[]} its events, and the last point of each piece of ink
+ */
+function lessonNumbers(library, constants, page) {
+  const profile = library.struct("capabilities"), sample = library.struct("pointer_sample");
+  library.device_profile("ideal", profile);
+  const held = library.struct("lesson_options", { misses_until_shown: 2, strength: 0.6, hint_time: 0.25 });
+  const lesson = library.lesson_create_for_pointer(page, profile, null, held);
+  let now = 1;
+  const move = (kind, id, x, y, isDown, isCancelled) => {
+    now += 0.009;
+    Object.assign(sample, { kind, id, is_down: isDown, is_cancelled: isCancelled, time: now, place: [x, y] });
+    library.lesson_move_pointer(lesson, sample, null);
+  };
+  // A share of a stroke, in steps of at most 1 mm, the pointer lifted for one of them at `bounce`.
+  const write = (kind, id, stroke, { backwards = false, share = 1, bounce = -1, isCancelled = false } = {}) => {
+    const flat = library.polyline(page, 0, stroke, constants.PATH);
+    const points = Array.from({ length: flat.length / 2 }, (_, i) => [flat[2 * i], flat[2 * i + 1]]);
+    if (backwards) points.reverse();
+    const line = [points[0]];
+    for (let k = 1; k < points.length; ++k) {
+      const [x0, y0] = points[k - 1], [x1, y1] = points[k];
+      const steps = Math.floor(Math.sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)) / 1e-3) + 1;
+      for (let i = 1; i <= steps; ++i) line.push([x0 + ((x1 - x0) * i) / steps, y0 + ((y1 - y0) * i) / steps]);
+    }
+    const last = Math.floor(share * (line.length - 1)), lifted = Math.floor(bounce * line.length);
+    if (kind !== constants.POINTER_TOUCH) move(kind, id, ...line[0], false, false);
+    for (let i = 0; i <= last; ++i) move(kind, id, ...line[i], i !== lifted, false);
+    move(kind, id, ...line[last], false, isCancelled);
+    now += 0.5;
+    library.lesson_advance(lesson, now);
+  };
+  const { POINTER_MOUSE: mouse, POINTER_TOUCH: touch, POINTER_PEN: pen } = constants;
+  write(mouse, 1, 0);
+  write(touch, 2, 1, { backwards: true });
+  write(touch, 3, 1, { share: 0.6, isCancelled: true });
+  move(touch, 4, 0.1, 0.03, true, false);  // a palm: a pen comes
+  write(pen, 5, 1);
+  write(touch, 6, 2);  // too soon after the pen
+  write(pen, 5, 2, { share: 0.3 });
+  write(pen, 5, 2, { bounce: 0.5 });
+  library.lesson_send(lesson, constants.LESSON_UNDO);
+  write(pen, 5, 2);
+  library.lesson_send(lesson, constants.LESSON_SKIP);
+  write(mouse, 1, 4);
+  library.lesson_advance(lesson, now + 2);
+
+  const numbers = [], view = library.struct("lesson_view"), event = library.struct("lesson_event");
+  library.lesson_look(lesson, view);
+  while (library.lesson_take_event(lesson, event)) {
+    const { kind, reason, hint, stroke, misses, pen_down, tick, place } = event;
+    numbers.push(kind, reason, hint, stroke, misses, pen_down, tick, ...place);
+  }
+  const ink = library.struct("lesson_ink"), point = new Float64Array(6);
+  for (let i = 0; i < view.ink_count; ++i) {
+    library.lesson_read_ink(lesson, i, ink);
+    library.lesson_ink_points(lesson, ink.end - 1, point, 1);
+    numbers.push(ink.begin, ink.end, ink.fate, point[0], point[1], point[4]);
+  }
+  library.free(lesson);
+  return numbers;
+}
+
+/**
  * Writes a character by a hand that holds a simulated device and by one that follows a pointer.
  * @returns {{numbers: number[], renderer: number, states: object[]}} forces and more of each tick; and the renderer of
  * the former with its samples, for nanosecondsPerTick()
@@ -70,6 +134,7 @@ export function scriptedForces(library, constants) {
     record();
   });
   if ((events & constants.PAGE_FINISHED) === 0) throw new Error("the page was not finished");
+  numbers.push(...lessonNumbers(library, constants, page));
   return { numbers, renderer, states };
 }
 

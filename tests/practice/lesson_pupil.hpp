@@ -29,7 +29,8 @@ class Pupil {
     ++ticks;
     place_ = place;
     height_ = z;
-    const Point hand = place + beside_hand.value_or(Point(0.0, 0.0));
+    calligraphy::LessonHand hand;
+    hand.place = place + beside_hand.value_or(Point(0.0, 0.0));
     const calligraphy::HapticTick& tick = lesson_.update(state, beside_hand ? &hand : nullptr);
     on_tick();
     return tick;

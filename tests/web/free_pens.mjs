@@ -9,7 +9,7 @@ import { resolve } from "node:path";
 
 const [dist, setFile, tracesFile] = process.argv.slice(2).map((path) => resolve(path));
 const { constants, load } = await import(`${dist}/calligraphy.js`);
-const { Desk, em } = await import(`${dist}/page/desk.js`);
+const { LessonHandle } = await import(`${dist}/page/desk.js`);
 const library = await load(readFileSync(`${dist}/calligraphy_module.wasm`));
 const bytes = readFileSync(setFile);
 const set = library.set_from_memory(bytes, bytes.length, setFile);
@@ -47,24 +47,27 @@ function placed(penDowns, strokes) {
 /** Writes pen-downs as the page would, and passes over each stroke that is refused: their number. One that is in doubt
  * is accepted if the next one begins, or nothing is left to write. */
 function refused(desk, penDowns) {
-  let count = 0;
-  const pass = (milliseconds) => { for (let i = 0; i < milliseconds; ++i) desk.advance(); };
+  let count = 0, now = 0;
+  const move = (x, y, isDown) => desk.move({ time: now, x, y, isDown, stylus: {}, buttons: -1, kind: "mouse" });
+  const pass = (milliseconds) => desk.advance(now += milliseconds);
   for (const [i, points] of penDowns.entries()) {
-    const isLast = i + 1 === penDowns.length, [x, y, begin] = points[0];
-    desk.move(x, y, false);
-    pass(200);
-    let now = begin;
+    const isLast = i + 1 === penDowns.length, [x, y, begin] = points[0], down = now + 200 - begin;
+    move(x, y, false);
     for (const [toX, toY, time] of points) {
-      pass(time - now);
-      now = time;
-      desk.move(toX, toY, true);
+      now = Math.max(now, down + time);
+      move(toX, toY, true);
     }
-    pass(8);
-    desk.move(points.at(-1)[0], points.at(-1)[1], false);
-    pass(isLast ? 1200 : 200);
-    const inDoubt = desk.tick.hint === constants.HINT_LIFTED_EARLY ? 1 : 0;
-    if (desk.due + inDoubt > i) continue;
-    while (desk.due <= i && desk.skip()) count += 1;
+    now += 8;
+    move(points.at(-1)[0], points.at(-1)[1], false);
+    pass(isLast ? 1300 : 200);
+    desk.look();
+    const inDoubt = desk.view.hint === constants.HINT_LIFTED_EARLY ? 1 : 0;
+    if (desk.view.due + inDoubt > i) continue;
+    for (; desk.view.due <= i; desk.look()) {
+      library.lesson_send(desk.handle, constants.LESSON_SKIP);
+      pass(1);
+      count += 1;
+    }
   }
   return count;
 }
@@ -81,21 +84,23 @@ function isKnown(character) {
 /** Whether they are the strokes of the character, in order and direction. */
 function isRight(desk, penDowns) {
   const paths = penDowns.map((points) => points.map((point) => point.slice(0, 2)));
-  return library.match(desk.page, 0, paths).remarks.length === 0;
+  return library.match(desk.pages[0], 0, paths).remarks.length === 0;
 }
 
 const counts = { characters: 0, strokes: 0, lenient: 0, normal: 0 };
 for (const { character, penDowns } of traces(readFileSync(tracesFile, "utf8"))) {
   if (!isKnown(character)) continue;
   for (const [name, tolerance] of [["lenient", constants.TOLERANCE_LENIENT], ["normal", constants.TOLERANCE_NORMAL]]) {
-    const desk = new Desk(library, set, character), pens = placed(penDowns, desk.strokes);
+    const desk = new LessonHandle(library, set, character, { mode: constants.LESSON_GUIDED, strength: 0.6, tolerance });
+    desk.advance(0);
+    desk.look();
+    const pens = placed(penDowns, desk.strokes);
     if (isRight(desk, pens)) {
-      desk.guide(0.6, tolerance);
       counts[name] += refused(desk, pens);
       counts.characters += name === "normal" ? 1 : 0;
       counts.strokes += name === "normal" ? penDowns.length : 0;
     }
-    desk.free();
+    for (const handle of [desk.handle, ...desk.pages]) library.free(handle);
   }
 }
 const { characters, strokes, lenient, normal } = counts;

@@ -1,16 +1,8 @@
-// A character on a sheet of paper, and the simulated pen that writes it: its hand follows the pointer, and feels the
-// guide.
+// A character on a sheet of paper, and the library's lesson on it.
 import { constants } from "../calligraphy.js";
 
 /** Edge of the character's square, and the margin around it [m]. */
 export const em = 0.04, margin = 0.1 * em, sheet = em + 2 * margin;
-
-// A light and well damped hand, which follows the pointer closely round corners, too.
-const grip = { mass: 0.01, damping: 12, stiffness: 300 };  // [kg, N s/m, N/m]
-const settling = 0.03;  // of the guide: no real hand is thrown by it [s]
-// A pointer that is put down or lifted takes the pen along within some 20 ms.
-const following = { smoothing_time: 0.01, max_speed: 2, lifting_speed: 0.6, hover_height: 0.0045 };
-const pressed = 0.5;  // pressure of a pen on the paper, whatever its own: it must touch the paper
 
 /**
  * @typedef {import("../calligraphy.js").Library} Library
@@ -19,6 +11,10 @@ const pressed = 0.5;  // pressure of a pen on the paper, whatever its own: it mu
  * @property {Float64Array} path of the pen, likewise
  * @property {[number, number]} start where it begins
  * @property {number} length of its path [m]
+ * @property {number} fate such as constants.FATE_ACCEPTED
+ * @property {boolean} isShown its template is to be seen
+ * @property {number} misses pen-downs that were to write it, and did not
+ * @property {number} penDown number of the pen-down that wrote it; -1: none
  */
 
 /** The members of a stylus that the library has, in its order, and the bit of each. */
@@ -48,120 +44,135 @@ export function layOut(library, set, character) {
   return page;
 }
 
-export class Desk {
-  /**
-   * @param {Library} library
-   * @param {number} set handle of the set of characters
-   * @param {string} character
-   */
-  constructor(library, set, character) {
+/** @typedef {{mode: number, strength: number, tolerance: number}} Held how a lesson is held: see the library */
+
+export class LessonHandle {
+  /** @type {Stroke[]} */
+  strokes = [];
+  /** @type {number[]} */
+  pages = [];  // handles: of the page that is written, and of those that are to be begun
+  numbers = new Float64Array(6 * 1024);  // of points of ink
+
+  /** @param {Library} library @param {number} set handle of the set of characters @param {string} character
+   * @param {Held} held */
+  constructor(library, set, character, held) {
     this.library = library;
-    this.handles = /** @type {number[]} */ ([]);
-    this.page = this.#kept(layOut(library, set, character));
-    this.mapping = library.struct("mapping");
-    library.page_mapping(this.page, constants.UPRIGHT, 1, this.mapping);
-    this.profile = library.struct("capabilities");
-    library.device_profile("ideal", this.profile);
-    const hand = library.struct("grip", grip), pointer = library.struct("pointer_options", following);
-    this.device = this.#kept(library.pointer_device_create(this.profile, hand, pointer, this.mapping));
-    this.options = library.struct("renderer_options");
-    this.sample = library.struct("device_state");
-    this.tick = library.struct("tick");
+    this.view = library.struct("lesson_view");
+    this.event = library.struct("lesson_event");
+    this.sample = library.struct("pointer_sample");
     this.stylus = library.struct("stylus");
-    [hand, pointer].forEach((made) => library.discard(made));
-    this.strokes = this.#readStrokes();
-    this.due = 0;  // index of the stroke to be written next; the number of strokes once all are
-    this.renderer = 0;
-    this.guide(0, constants.TOLERANCE_NORMAL);
-    this.move(sheet / 2, sheet / 2, false);
+    this.profile = library.struct("capabilities");
+    this.renderer = library.struct("renderer_options");
+    this.held = library.struct("lesson_options", { misses_until_shown: 2, hint_time: 0.25 });
+    library.device_profile("ideal", this.profile);
+    this.pages.push(layOut(library, set, character));
+    this.#set(held);
+    this.handle = library.lesson_create_for_pointer(this.pages[0], this.profile, this.renderer, this.held);
   }
 
-  /**
-   * Sets how strong the guide is, and how exactly strokes must be written, from the stroke that is due on.
-   * @param {number} strength share of the way to the stroke over which a hand is pulled, from 0 to below 1
-   * @param {number} tolerance such as constants.TOLERANCE_NORMAL
-   */
-  guide(strength, tolerance) {
-    const { library, options } = this;
-    library.renderer_options_for(this.profile, constants.PRESET_DEVICE, 1, tolerance, options);
-    options.grip_stiffness = grip.stiffness;
-    options.guidance_stiffness = (grip.stiffness * strength) / (1 - strength);
-    options.guidance_wrong_way_stiffness *= Math.min(1, 2 * strength);
-    options.guidance_damping *= Math.min(1, 2 * strength);
-    options.guidance_fade_in = settling;
-    options.guidance_to_start = Number(strength > 0);
-    const renderer = library.renderer_create(this.page, this.mapping, this.profile, options);
-    for (let stroke = 0; stroke < this.due; ++stroke) library.renderer_skip_stroke(renderer);
-    if (this.renderer) library.free(this.renderer);
-    this.renderer = renderer;
+  /** Begins with a character. @param {number} set @param {string} character */
+  begin(set, character) {
+    const page = layOut(this.library, set, character);
+    this.library.lesson_begin(this.handle, page);
+    this.pages.push(page);
   }
 
-  /**
-   * Moves the pointer that the hand follows.
-   * @param {number} x [m, page]
-   * @param {number} y [m, page]
-   * @param {boolean} isDown
-   * @param {import("./pointer.js").Stylus} [stylus]
-   * @param {number} [buttons]
-   */
-  move(x, y, isDown, stylus = {}, buttons = 0) {
+  again() {
+    this.library.lesson_again(this.handle);
+  }
+
+  /** @param {Held} held */
+  change(held) {
+    this.#set(held);
+    this.library.lesson_change(this.handle, this.renderer, this.held);
+  }
+
+  /** @param {Held} held */
+  #set({ mode, strength, tolerance }) {
+    this.library.renderer_options_for(this.profile, constants.PRESET_DEVICE, 1, tolerance, this.renderer);
+    this.renderer.guidance_to_start = 1;
+    this.held.mode = mode;
+    this.held.strength = strength;
+  }
+
+  /** @param {import("./pointer.js").PointerSample} sample */
+  move({ time, x, y, isDown, isPalm, stylus, buttons, kind }) {
+    const { sample, library } = this;
+    sample.time = time * 1e-3;
+    sample.place = [x, y];
+    sample.is_down = Number(isDown);
+    sample.is_cancelled = Number(isPalm ?? false);
+    sample.kind = { touch: constants.POINTER_TOUCH, pen: constants.POINTER_PEN }[kind ?? ""] ?? constants.POINTER_MOUSE;
+    sample.buttons = Math.max(0, buttons);
     setStylus(this.stylus, stylus);
-    this.library.device_move_pen(this.device, x, y, isDown ? pressed : 0, Math.max(0, buttons), this.stylus);
+    library.lesson_move_pointer(this.handle, sample, this.stylus);
   }
 
-  /** Whether the lifted pen is not where a pointer is that was not seen coming, such as a finger. @param {number} x
-   * @param {number} y */
-  isAwayFrom(x, y) {
-    const { pen_tip } = this.tick;
-    return Math.hypot(pen_tip[0] - x, pen_tip[1] - y) > 0.01 * em;
+  /** Whether time matters then. @param {number} time [ms] */
+  advance(time) {
+    return this.library.lesson_advance(this.handle, time * 1e-3) !== 0;
   }
 
-  /** One millisecond; its result is in `tick`. */
-  advance() {
-    const { library, device, sample, tick } = this;
-    library.device_read(device, sample);
-    library.renderer_update(this.renderer, sample, tick);
-    library.device_write(device, tick.force);
-    this.due = tick.character > 0 ? this.strokes.length : tick.stroke;
-    return tick;
-  }
-
-  /** Passes over the stroke that is due, unless it is being written; whether it did. */
-  skip() {
-    const skipped = this.library.renderer_skip_stroke(this.renderer) !== 0;
-    if (skipped) ++this.due;
-    return skipped;
-  }
-
-  free() {
-    const { library } = this;
-    for (const made of [this.mapping, this.profile, this.options, this.sample, this.tick, this.stylus]) {
-      library.discard(made);
+  /** Sets the view and the strokes, and returns what has happened. */
+  look() {
+    const { library, handle, view, event } = this, events = [];
+    library.lesson_look(handle, view);
+    while (library.lesson_take_event(handle, event)) {
+      events.push(event.values());
+      if (event.kind === constants.LESSON_RESTARTED) this.#readStrokes();
     }
-    [...this.handles, this.renderer].forEach((handle) => library.free(handle));
-  }
-
-  /** @param {number} handle */
-  #kept(handle) {
-    this.handles.push(handle);
-    return handle;
-  }
-
-  /** @returns {Stroke[]} */
-  #readStrokes() {
-    const { library, page } = this;
-    const placed = library.struct("placed_character"), stroke = library.struct("stroke");
-    library.page_character(page, 0, placed);
-    const strokes = Array.from({ length: placed.stroke_count }, (_, i) => {
-      library.page_stroke(page, 0, i, stroke);
-      return {
-        outline: library.polyline(page, 0, i, constants.OUTLINE, em / 1000),
-        path: library.polyline(page, 0, i, constants.PATH, em / 1000),
-        start: /** @type {[number, number]} */ ([stroke.start[0], stroke.start[1]]),
-        length: stroke.length,
-      };
+    const read = library.struct("lesson_stroke");
+    this.strokes.forEach((stroke, i) => {
+      library.lesson_read_stroke(handle, i, read);
+      const { fate, misses, pen_down: penDown } = read;
+      Object.assign(stroke, { fate, misses, penDown, isShown: read.is_shown !== 0 });
     });
-    [placed, stroke].forEach((made) => library.discard(made));
-    return strokes;
+    library.discard(read);
+    return events;
   }
+
+  /** The words for the hint, or for the reason of a refusal. */
+  hint() {
+    return this.library.lesson_hint_text(this.handle, "en");
+  }
+
+  /** Points of ink, 6 numbers each, valid until the next call. @param {number} begin @param {number} end */
+  inkPoints(begin, end) {
+    const count = end - begin;
+    if (6 * count > this.numbers.length) this.numbers = new Float64Array(12 * count);
+    this.library.lesson_ink_points(this.handle, begin, this.numbers, count);
+    return this.numbers.subarray(0, 6 * count);
+  }
+
+  /** What is to be judged, for another thread. */
+  writing() {
+    const numbers = new Float64Array(this.library.lesson_writing(this.handle, null, 0));
+    this.library.lesson_writing(this.handle, numbers, numbers.length);
+    return numbers;
+  }
+
+  /** Of the page that was begun. */
+  #readStrokes() {
+    const { library } = this;
+    while (this.pages.length > 1) library.free(this.pages.shift() ?? 0);
+    this.strokes = strokesOf(library, this.pages[0]);
+  }
+}
+
+/** The strokes of a page with one character. @param {Library} library @param {number} page @returns {Stroke[]} */
+function strokesOf(library, page) {
+  const placed = library.struct("placed_character"), stroke = library.struct("stroke");
+  library.page_character(page, 0, placed);
+  const strokes = Array.from({ length: placed.stroke_count }, (_, i) => {
+    library.page_stroke(page, 0, i, stroke);
+    return {
+      outline: library.polyline(page, 0, i, constants.OUTLINE, em / 1000),
+      path: library.polyline(page, 0, i, constants.PATH, em / 1000),
+      start: /** @type {[number, number]} */ ([stroke.start[0], stroke.start[1]]),
+      length: stroke.length,
+      fate: constants.FATE_OPEN, misses: 0, penDown: -1, isShown: false,
+    };
+  });
+  [placed, stroke].forEach((made) => library.discard(made));
+  return strokes;
 }

@@ -27,19 +27,46 @@ export class Brush {
   }
 }
 
-/** The ink of one pen-down, drawn as it grows. */
-export class InkLine {
-  constructor() {
-    this.points = /** @type {InkPoint[]} */ ([]);
-    this.drawn = 0;  // of `points`
-  }
+/** A piece of ink: where the guided pen was, and where the pointer was. */
+export class Ink {
+  guided = new InkLine();
+  own = new InkLine();
+  penDown = -1;
+  fate = 0;  // such as constants.FATE_OPEN
+  isDoubted = false;
+  taken = 0;  // index behind the last point that was taken
 
-  /** Of its path [m]. */
-  get length() {
-    return this.points.reduce((sum, { x, y }, i) => {
-      const last = this.points[Math.max(0, i - 1)];
-      return sum + Math.hypot(x - last.x, y - last.y);
-    }, 0);
+  /** Takes what is new. @param {import("./desk.js").LessonHandle} desk @param {number} index @param {number} pixel
+   * its size [m] */
+  take(desk, index, pixel) {
+    const { library } = desk, read = library.struct("lesson_ink");
+    library.lesson_read_ink(desk.handle, index, read);
+    const begin = Math.max(this.taken, read.begin), points = desk.inkPoints(begin, read.end);
+    Object.assign(this, { penDown: read.pen_down, fate: read.fate, isDoubted: read.is_doubted !== 0, taken: read.end });
+    library.discard(read);
+    for (let i = 0; i < points.length; i += 6) {
+      const [x, y, ownX, ownY, time, pressure] = points.subarray(i, i + 6);
+      this.guided.write(x, y, time, pressure, pixel);
+      this.own.write(ownX, ownY, time, pressure, pixel);
+    }
+  }
+}
+
+/** A line of ink, drawn as it grows. */
+class InkLine {
+  brush = new Brush();
+  points = /** @type {InkPoint[]} */ ([]);
+  drawn = 0;  // of `points`
+  last = { x: NaN, y: NaN, time: NaN };
+
+  /** The pen is at a place. @param {number} x @param {number} y @param {number} time [s] @param {number} pressure NaN: not
+   * measured @param {number} pixel its size [m] */
+  write(x, y, time, pressure, pixel) {
+    const { last } = this, seconds = time - last.time || 0, way = Math.hypot(x - last.x, y - last.y);
+    const speed = seconds > 0 ? way / seconds : 0;
+    const width = this.brush.press(Number.isNaN(pressure) ? undefined : pressure, speed, seconds);
+    this.last = { x, y, time };
+    this.add(x, y, width, 0.7 * pixel);
   }
 
   /**
@@ -52,22 +79,11 @@ export class InkLine {
     this.points.push({ x, y, width });
   }
 
-  /** Draws what was added since the last time, this share of its width. @param {CanvasRenderingContext2D} context
-   * @param {string} colour @param {number} [share] */
-  drawOn(context, colour, share) {
-    this.#draw(context, colour, share, this.drawn);
-    this.drawn = this.points.length;
-  }
-
-  /** Draws all of it. @param {CanvasRenderingContext2D} context @param {string} colour @param {number} [share] */
-  drawAll(context, colour, share) {
-    this.#draw(context, colour, share, 0);
-  }
-
-  /** @param {CanvasRenderingContext2D} context @param {string} colour @param {number | undefined} share
-   * @param {number} from */
-  #draw(context, colour, share = 1, from) {
-    const { points } = this;
+  /** Draws all of it, or what was added since the last time, this share of its width.
+   * @param {CanvasRenderingContext2D} context @param {string} colour @param {number} [share] @param {boolean} [isWhole] */
+  draw(context, colour, share = 1, isWhole = true) {
+    const { points } = this, from = isWhole ? 0 : this.drawn;
+    this.drawn = points.length;
     context.strokeStyle = colour;
     context.lineCap = "round";
     for (let i = from; i < points.length; ++i) {

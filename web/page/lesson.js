@@ -1,15 +1,12 @@
-// A character being written: what the pen does becomes ink, hints and, at the end, a score.
+// Draws a lesson, and passes on what is done: what is decided, the library decides.
 import { constants } from "../calligraphy.js";
 import { Animations } from "./animations.js";
-import { Desk, em, sheet } from "./desk.js";
-import { Brush, InkLine } from "./ink.js";
+import { LessonHandle } from "./desk.js";
+import { Ink } from "./ink.js";
 import { colours } from "./paper.js";
-import { PenDown } from "./pen_down.js";
-import { Recorder, verdicts } from "./recorder.js";
 import { Trace } from "./trace.js";
 
 /**
- * @typedef {import("../calligraphy_layout.js").Structs["tick"]} Tick
  * @typedef {"guided" | "vision" | "next" | "memory" | "watch"} ModeName
  * @typedef {object} Settings
  * @property {ModeName} mode
@@ -18,72 +15,31 @@ import { Trace } from "./trace.js";
  * @property {"guided" | "own" | "both"} ink which ink is shown
  */
 
-/** What each mode shows, and whether it guides. */
 export const modes = {
-  guided: { name: "Guided", template: "all", hasStart: true, isGuided: true },
-  vision: { name: "Vision only", template: "all", hasStart: true, isGuided: false },
-  next: { name: "Next stroke", template: "next", hasStart: true, isGuided: true },
-  memory: { name: "From memory", template: "none", hasStart: false, isGuided: false },
-  watch: { name: "Watch", template: "all", hasStart: false, isGuided: false },
+  guided: { name: "Guided", kind: constants.LESSON_GUIDED, isGuided: true },
+  vision: { name: "Vision only", kind: constants.LESSON_VISION, isGuided: false },
+  next: { name: "Next stroke", kind: constants.LESSON_NEXT_STROKE, isGuided: true },
+  memory: { name: "From memory", kind: constants.LESSON_MEMORY, isGuided: false },
+  watch: { name: "Watch", kind: constants.LESSON_WATCH, isGuided: false },
 };
 
-const missesUntilShown = 2;
-const patience = 250;     // time for which a hint must hold before it is shown [ms]
-const rest = 1000;        // time without anything to draw after which no more pictures are drawn [ms]
-const longestWork = 25;   // on ticks for one picture [ms]
-const longestGap = 3000;  // between two pictures: what the pen did before is not made up for [ms]
-const longestWay = 150;   // of the lifted pen across the sheet [ms]
-const shortestLift = 0.052;  // of a pen; a score takes a shorter one for a bounce [s]
-const longestDoubt = 1200;  // of a pen in the air about what it wrote: the last stroke is settled within it [ms]
-const longestBounce = 0.15 * em;  // a pointer that is put down this near, with the pen still on the paper, writes on [m]
+const rest = 1000;       // time without anything to draw after which no more pictures are drawn [ms]
+const longestWork = 12;  // on a trace that is played, for one picture [ms]
 
 export class Lesson {
   animations = new Animations();
-  /** @type {PenDown[]} */
-  penDowns = [];
-  /** @type {PenDown | undefined} */
-  penDown;  // while the pen is on the paper
-  /** @type {PenDown | undefined} */
-  unjudged;  // the last that began a stroke, while it is not known whether it wrote it
-  endOfDoubt = -Infinity;  // about it, if nothing is left to write [ms]
-  recorder = new Recorder();
   trace = new Trace();  // what the pointer did
   /** @type {import("./pointer.js").PointerSample[]} */
-  played = [];            // samples of a trace that is written again, the next one last
-  endOfPlay = -Infinity;  // [ms]
-  /** @type {number[]} */
-  skipped = [];  // strokes
-  misses = 0;    // of the stroke that is due
-  /** @type {Set<number>} */
-  missed = new Set();  // strokes that were skipped or written wrongly first
-  isWritten = false;
-
-  brush = new Brush();
-  tip = [sheet / 2, sheet / 2];  // of the guided pen [m]
-  isOnPaper = false;
-  isGuideLate = false;  // its settings have changed while a stroke was being written
-  hint = { kind: 0, age: 0 };  // why the pen is not guided, and for how long [ms]
-
-  /** @type {InkLine[]} */
-  own = [];  // since the last lift
-  ownBrush = new Brush();
-  /** @type {[number, number]} */
-  ownAt = [sheet / 2, sheet / 2];  // where the pointer was last on the paper [m]
-  ownTime = 0;                     // and when [ms]
-  isDown = false;                  // the pointer
-  mustLift = false;                // it was down when the lesson began
-  hasPointer = false;              // has been seen
-  /** @type {number | undefined} */
-  pressure;
-
-  isOpen = true;
+  played = [];          // samples of a trace that is written again, the last one first
+  added = 0;            // to the time, for traces that were played [ms]
+  time = 0;             // of the lesson [ms]
+  /** @type {Ink[]} */
+  ink = [];             // by pen-down
+  shown = "";           // what the layers of sheet and ink show
+  hasPointer = false;   // has been seen
   isAwake = false;
-  time = 0;          // of the last tick [ms], as performance.now()
-  lastActivity = 0;  // [ms]
-  lastSample = 0;    // that was taken [ms]
-  timeOnPaper = -Infinity;  // of the writer, when the pen was last on the paper [s]
-  addedTime = 0;            // to the writer's, so that quick strokes are told apart [s]
-  marks = () => {};  // draws what a remark points at
+  lastActivity = 0;     // [ms]
+  marks = () => {};     // draws what a remark points at
 
   /**
    * @param {import("../calligraphy.js").Library} library
@@ -97,32 +53,41 @@ export class Lesson {
    */
   constructor(library, set, character, settings, paper, pointer, display) {
     this.library = library;
-    this.character = character;
     this.settings = settings;
     this.paper = paper;
     this.pointer = pointer;
     this.display = display;
-    this.mustLift = pointer.isDown;
-    this.desk = new Desk(library, set, character);
-    this.#guide();
-    display.hint("", 0, 0);
-    display.changed(this);
-    paper.clear("marks");
-    this.redraw();
-    if (settings.mode === "watch") this.#watch();
+    this.desk = new LessonHandle(library, set, character, { ...settings, mode: this.mode.kind });
+    this.character = character;
+    this.wake();
   }
 
-  /** Ends it: nothing is drawn any more. */
-  close() {
-    this.isOpen = false;
-    this.desk.free();
+  /** Begins with a character. @param {number} set @param {string} character */
+  begin(set, character) {
+    this.desk.begin(set, character);
+    this.character = character;
+    this.trace = new Trace();
+    this.wake();
   }
 
-  /** Takes other settings, but for the mode; of what is written, only which ink is shown. @param {Settings} settings */
+  again() {
+    this.desk.again();
+    this.trace = new Trace();
+    this.wake();
+  }
+
+  /** Takes other settings. @param {Settings} settings */
   change(settings) {
-    this.settings = this.isWritten ? { ...this.settings, ink: settings.ink } : settings;
-    this.#guide();
+    if (settings.mode !== this.settings.mode) this.trace = new Trace();
+    this.settings = settings;
+    this.desk.change({ ...settings, mode: this.mode.kind });
     this.redraw();
+  }
+
+  /** @param {number} command such as constants.LESSON_SKIP */
+  send(command) {
+    this.library.lesson_send(this.desk.handle, command);
+    this.wake();
   }
 
   get mode() {
@@ -134,9 +99,18 @@ export class Lesson {
     return this.mode.isGuided && this.settings.strength > 0;
   }
 
-  /** Whether the stroke that is due was missed so often that it is shown. */
-  get isStuck() {
-    return this.misses >= missesUntilShown;
+  /** Whether all is written or skipped, and the pen lifted. */
+  get isWritten() {
+    return this.view.is_finished !== 0 && this.settings.mode !== "watch";
+  }
+
+  get view() {
+    return this.desk.view;
+  }
+
+  /** The stroke that is due. */
+  get due() {
+    return this.desk.strokes[this.view.due];
   }
 
   /** Writes a trace as if the pointer did it now, but faster. @param {Trace} trace */
@@ -145,29 +119,11 @@ export class Lesson {
     trace.moveTo(Math.floor(performance.now() - rest - last));  // until now
     this.trace = trace;
     this.played = trace.played().reverse();
-    this.time = this.lastSample = this.played[this.played.length - 1].time - rest;
-    this.endOfPlay = this.played[0].time + rest;
+    const first = this.played[this.played.length - 1].time;
+    this.added += Math.ceil(Math.max(0, this.time + rest - this.added - first));
+    this.time = first + this.added - rest;
     this.pointer.samples.length = 0;  // not seen
     this.display.changed(this);
-    this.wake();
-  }
-
-  get isPlaying() {
-    return this.time < this.endOfPlay;
-  }
-
-  /** Passes over the stroke that is due. */
-  skip() {
-    const stroke = this.desk.due;
-    if (this.isWritten || !this.desk.skip()) return;
-    if (this.penDown) Object.assign(this.penDown, { isPassed: true, isBegun: false });
-    this.unjudged = undefined;
-    this.skipped.push(stroke);
-    this.missed.add(stroke);
-    this.animations.clear();
-    this.#strokeIsOver();
-    this.#drawInk();
-    if (this.desk.due === this.desk.strokes.length) this.#finish();
     this.wake();
   }
 
@@ -177,332 +133,146 @@ export class Lesson {
     this.wake();
   }
 
-  /** The pen-down during which a time was [s]. @param {number} time */
-  penDownAt(time) {
-    return this.penDowns.findLast(({ begin }) => begin <= time + 1e-6);
-  }
-
   /** Draws from now on, until nothing changes. */
   wake() {
     this.lastActivity = performance.now();
     if (this.isAwake) return;
     this.isAwake = true;
-    this.time = Math.max(this.time, this.lastActivity);
     requestAnimationFrame((now) => this.#picture(now));
   }
 
   redraw() {
-    this.#drawSheet();
-    this.#drawInk();
-    this.paper.clear("pen");
-    if (this.penDown) this.#drawLines("pen", { guided: this.penDown.guided, own: this.own }, true);
+    this.shown = "";
     this.wake();
-  }
-
-  /** The grid, and of the template what the mode shows. */
-  #drawSheet() {
-    const { paper } = this, { template } = this.mode;
-    paper.drawGrid();
-    this.desk.strokes.forEach((stroke, i) => {
-      const isDue = i === this.desk.due && this.settings.mode !== "watch";
-      const isShown = template === "all" || (isDue && (template === "next" || this.isStuck));
-      if (isShown || this.isWritten) {
-        paper.fillStroke("sheet", stroke, isDue ? colours.due : colours.template);
-      }
-    });
-  }
-
-  /** The ink that stays, or may stay. */
-  #drawInk() {
-    this.paper.clear("ink");
-    for (const stroke of this.skipped) this.paper.fillStroke("ink", this.desk.strokes[stroke], colours.skipped);
-    for (const penDown of this.penDowns) {
-      const isOpen = penDown === this.unjudged;
-      const colour = isOpen && penDown.isDoubted ? colours.skipped : colours.ink;
-      if (penDown.finish || isOpen) this.#drawLines("ink", penDown, true, colour);
-    }
-  }
-
-  #guide() {
-    const { settings, mode } = this;
-    this.isGuideLate = this.isOnPaper || this.unjudged !== undefined;  // what is being written is not disturbed
-    if (!this.isGuideLate) this.desk.guide(mode.isGuided ? settings.strength : 0, settings.tolerance);
   }
 
   /** @param {number} now */
   #picture(now) {
-    if (!this.isOpen) return;
-    if (now - this.time > longestGap && !this.isPlaying) this.time = now - longestGap;
-    for (let tick = 1; this.time < now; ++tick) {
-      this.#skipRest();
-      this.time += 1;
-      this.#takeSamples();
-      this.#advance();
-      if (tick % 64 === 0 && performance.now() - now > longestWork) break;
-    }
+    const isBusy = this.played.length > 0 ? this.#play(now) : this.#goOn(now);
+    this.#look();
     this.#draw(now);
-    const isMoving = this.isPlaying || this.animations.playing.length > 0;
-    this.isAwake = this.#isBusy || isMoving || now - this.lastActivity < rest;
+    const isMoving = this.played.length > 0 || this.animations.playing.length > 0;
+    this.isAwake = isBusy || isMoving || now - this.lastActivity < rest;
     if (this.isAwake) requestAnimationFrame((next) => this.#picture(next));
   }
 
-  /** Whether the pen writes, or what it wrote may yet be decided while it is in the air. */
-  get #isBusy() {
-    return this.isDown || this.isOnPaper || (this.unjudged !== undefined && this.time < this.endOfDoubt);
+  /** Up to now. @param {number} now */
+  #goOn(now) {
+    for (let sample = this.pointer.take(now); sample; sample = this.pointer.take(now)) {
+      if (sample.isPalm) this.trace.dropPenDown();
+      else if (!this.view.is_finished && this.settings.mode !== "watch") this.trace.add(sample);
+      this.#move(sample);
+    }
+    this.time = Math.max(this.time, now + this.added);
+    return this.desk.advance(this.time);
   }
 
-  /** Leaves out a time in which a lifted pen that is played did nothing: no pictures were drawn then, either. */
-  #skipRest() {
-    const next = this.played.at(-1)?.time ?? this.time;
-    if (!this.#isBusy && this.time - this.lastSample >= rest) this.time = Math.max(this.time, next);
+  /** A part of a trace. @param {number} now */
+  #play(now) {
+    this.pointer.samples.length = 0;
+    do {
+      const sample = /** @type {import("./pointer.js").PointerSample} */ (this.played.pop());
+      this.#move(sample);
+      this.time = Math.max(this.time, sample.time + this.added);
+      this.desk.advance(this.time);
+    } while (this.played.length > 0 && performance.now() - now < longestWork);
+    if (this.played.length > 0) return true;
+    this.added = Math.ceil(Math.max(this.added, this.time + rest - now));
+    return this.desk.advance(this.time += rest);
   }
 
-  /** The next sample that is due, of those that are played first. */
-  #nextSample() {
-    const { played, time } = this, next = played.at(-1);
-    if (next) return next.time <= time ? played.pop() : undefined;
-    return this.isPlaying ? undefined : this.pointer.take(time);
+  /** @param {import("./pointer.js").PointerSample} sample */
+  #move(sample) {
+    this.hasPointer = true;
+    this.desk.move({ ...sample, time: sample.time + this.added });
   }
 
-  /** Keeps what the pointer did. @param {import("./pointer.js").PointerSample} sample */
-  #keep(sample) {
-    const { trace } = this, hadPenDown = trace.hasPenDown;
-    if (sample.isPalm && !this.penDown?.finish) trace.dropPenDown();
-    else trace.add(sample);
-    if (trace.hasPenDown !== hadPenDown) this.display.changed(this);
-  }
-
-  #takeSamples() {
-    for (let sample = this.#nextSample(); sample; sample = this.#nextSample()) {
-      this.mustLift &&= sample.isDown;
-      if (this.settings.mode === "watch" || this.isWritten || this.mustLift) continue;
-      if (!this.isPlaying) this.#keep(sample);
-      this.lastSample = sample.time;
-      if (sample.isPalm && this.penDown) this.penDown.isPalm = true;
-      const begins = sample.isDown && !this.isDown;
-      if (begins) {
-        const jump = Math.hypot(sample.x - this.ownAt[0], sample.y - this.ownAt[1]);
-        const isAway = this.isOnPaper ? jump > longestBounce : this.desk.isAwayFrom(sample.x, sample.y);
-        if (isAway) this.#bring(sample.x, sample.y);
-        if (!this.isOnPaper) this.own = [];
-        this.own.push(new InkLine());
-        this.ownBrush = new Brush();
-      }
-      if (sample.isDown) {
-        const seconds = begins ? 0 : Math.max(1e-3, (sample.time - this.ownTime) * 1e-3);
-        const way = Math.hypot(sample.x - this.ownAt[0], sample.y - this.ownAt[1]);
-        const width = this.ownBrush.press(sample.stylus.pressure, seconds > 0 ? way / seconds : 0, seconds);
-        if (!this.penDown?.isStray(sample.x, sample.y)) this.own.at(-1)?.add(sample.x, sample.y, width, this.paper.pixel);
-        this.ownAt = [sample.x, sample.y];
-        this.ownTime = sample.time;
-      }
-      this.hasPointer = true;
-      this.isDown = sample.isDown;
-      this.pressure = sample.isDown ? sample.stylus.pressure : 0;  // a pen that is lifted leaves a thin end
-      this.desk.move(sample.x, sample.y, sample.isDown, sample.stylus, sample.buttons);
+  /** What has happened since the last picture. */
+  #look() {
+    const { desk, view, display } = this, hadPenDown = this.trace.hasPenDown;
+    const events = desk.look();
+    for (const event of events) {
+      if (event.kind === constants.LESSON_RESTARTED) this.#restart();
+      if (event.kind === constants.LESSON_REFUSED) this.#refuse(event);
+      const isTold = event.kind === constants.LESSON_REFUSED || event.kind === constants.LESSON_HINTED;
+      if (isTold) display.hint(desk.hint(), event.place[0], event.place[1]);
+    }
+    if (view.hint === constants.HINT_NONE && view.reason === constants.REFUSAL_NONE) display.hint("", 0, 0);
+    this.ink.length = view.ink_count;
+    for (let i = 0; i < view.ink_count; ++i) (this.ink[i] ??= new Ink()).take(desk, i, this.paper.pixel);
+    if (events.length > 0 || hadPenDown !== this.trace.hasPenDown) display.changed(this);
+    if (events.some(({ kind }) => kind === constants.LESSON_FINISHED) && this.settings.mode !== "watch") {
+      display.written(this);
     }
   }
 
-  /** Lifts the pen and takes it to where a finger touches the paper, in no time of the writer's.
-   * @param {number} x @param {number} y */
-  #bring(x, y) {
-    for (let i = 0; i < longestWay && this.isOnPaper; ++i) this.#advance();
-    this.desk.move(x, y, false);
-    for (let i = 0; i < longestWay; ++i) this.#advance();
-  }
-
-  #advance() {
-    const { desk, brush, unjudged } = this, before = desk.due;
-    const tick = desk.advance(), [x, y] = tick.pen_tip, { events } = tick;
-    const isLate = unjudged !== undefined && (events & verdicts) !== 0;  // of a pen-down that is over
-    const isOnPaper = tick.state !== constants.SEPARATION;
-    if (events & constants.CONTACT) this.#putDown();
-    const time = this.#timeOfWriter();
-    if (isOnPaper && this.penDown) {
-      const speed = Math.hypot(x - this.tip[0], y - this.tip[1]) * 1000;
-      const { penDown } = this, ink = penDown.isStray(x, y) ? penDown.stray : penDown.guided;
-      ink.add(x, y, brush.press(this.pressure, speed, 1e-3), 0.7 * this.paper.pixel);
-    }
-    if (isLate) this.recorder.judge(unjudged.lifted, tick);
-    const isStray = isOnPaper && events === 0 && this.penDown?.isStray(x, y);
-    if ((isOnPaper && !isStray) || tick.events !== 0) this.recorder.add(tick, time, this.ownAt);
-    if (isOnPaper) this.timeOnPaper = time;
-    this.tip = [x, y];
-    this.isOnPaper = isOnPaper;
-    this.#readHint(tick);
-    (unjudged ?? this.penDown)?.takeEvents(events & verdicts, [x, y]);
-    this.penDown?.takeEvents(events & constants.STROKE_STARTED, [x, y]);
-    if (isLate) {
-      this.unjudged = undefined;
-      this.#drawInk();
-      this.#settle(unjudged);
-    }
-    if (events & constants.LIFT) this.#lift();
-    if (desk.due !== before) this.#strokeIsOver();
-    if (this.isGuideLate && !isOnPaper && !this.unjudged) this.#guide();
-  }
-
-  /** Another one is due. */
-  #strokeIsOver() {
-    this.misses = 0;
-    this.display.hint("", 0, 0);
-    this.#drawSheet();
-    this.display.changed(this);
-  }
-
-  /** Of the writer, who may think longer than pictures are drawn [s]. */
-  #timeOfWriter() {
-    return this.time * 1e-3 + this.addedTime;
-  }
-
-  #putDown() {
-    this.addedTime += Math.max(0, this.timeOnPaper + shortestLift - this.#timeOfWriter());
+  /** A page has been begun. */
+  #restart() {
+    this.ink = [];
+    this.marks = () => {};
     this.animations.clear();
-    this.display.hint("", 0, 0);
-    this.brush = new Brush();
-    this.penDown = new PenDown(this.#timeOfWriter(), this.recorder.count);
-    this.penDowns.push(this.penDown);
+    this.redraw();
   }
 
-  #lift() {
-    const { penDown } = this;
-    this.penDown = undefined;
-    if (!penDown) return;
-    const isDown = this.isDown ? 1 : 0;  // that of the next stroke already
-    penDown.own = this.own.splice(0, this.own.length - isDown);
-    penDown.end = [this.tip[0], this.tip[1]];
-    this.paper.clear("pen");
-    if (penDown.isPalm && !penDown.finish) {
-      this.recorder.count = penDown.recorded;
-      if (penDown.isBegun) this.#guide();  // which forgets what it wrote
-    } else if (penDown.isBegun) {
-      penDown.lifted = this.recorder.count - 1;
-      this.unjudged = penDown;
-      this.endOfDoubt = this.time + longestDoubt;
-      this.#drawInk();
-    } else {
-      if (penDown.finish) this.#drawLines("ink", penDown, true);
-      this.#settle(penDown);
-    }
-  }
-
-  /** What becomes of a pen-down that is over. @param {PenDown} penDown */
-  #settle(penDown) {
-    if (penDown.finish) {
-      this.display.hint("", 0, 0);
-      if (this.desk.due === this.desk.strokes.length) this.#finish();
-    } else if (!this.isWritten && !penDown.isPassed) {
-      this.#refuse(penDown);
-    }
-  }
-
-  /** @param {PenDown} penDown */
-  #refuse(penDown) {
-    ++this.misses;
-    this.missed.add(this.desk.due);
-    const stroke = this.desk.strokes[this.desk.due], shows = this.isStuck;
-    this.#fade(penDown);
-    if (!this.penDown) {  // otherwise it is being written again
-      this.#flash(stroke, () => shows && this.#demonstrate(this.desk.due));
-      this.display.hint(penDown.whyNot(stroke) ?? this.#words(penDown.hint), penDown.end[0], penDown.end[1]);
-    }
-    if (shows) this.#drawSheet();
-    this.display.changed(this);
-  }
-
-  /** The words for a hint where the pen is now, without the millimetres of a page that the screen shows at another
-   * size. @param {number} hint */
-  #words(hint) {
-    const { library, desk: { tick } } = this, shown = tick.hint;
-    tick.hint = hint;
-    const words = library.hint(tick).replace(/\d+ mm /, "");
-    tick.hint = shown;
-    return words;
-  }
-
-  #finish() {
-    this.isWritten = true;
-    this.isDown = false;
-    this.desk.move(this.tip[0], this.tip[1], false);
-    this.#drawSheet();
-    this.display.changed(this);
-    this.display.written(this);
-  }
-
-  /** @param {Tick} tick */
-  #readHint(tick) {
-    const kind = tick.hint === constants.HINT_WRITE ? constants.HINT_NONE : tick.hint;
-    this.hint = kind === this.hint.kind ? { kind, age: this.hint.age + 1 } : { kind, age: 0 };
-    if (kind === constants.HINT_NONE) return;
-    const isDoubt = kind === constants.HINT_LIFTED_EARLY, { unjudged } = this;
-    if (isDoubt && unjudged && !unjudged.isDoubted) {
-      unjudged.isDoubted = true;
-      this.#drawInk();
-    }
-    const isOld = isDoubt && this.penDowns.at(-1) !== unjudged;  // one that was refused since has its own words
-    if (this.hint.age === patience && !isOld) this.display.hint(this.#words(kind), this.tip[0], this.tip[1]);
-    this.penDown?.takeHint(kind);
+  /** Ink that was refused goes away, and the stroke that is due flashes. @param {{pen_down: number}} event */
+  #refuse({ pen_down }) {
+    const { paper, due } = this, context = paper.contexts.marks;
+    this.animations.add(500, (share) => {
+      context.globalAlpha = 0.6 * (1 - share);
+      for (const ink of this.ink) if (ink.penDown === pen_down) ink.guided.draw(context, colours.wrong);
+      context.globalAlpha = 1;
+    });
+    if (this.view.demonstrated >= 0 || this.view.is_on_paper || !due) return;
+    this.animations.add(900, (share) => {
+      context.globalAlpha = Math.sin(2 * Math.PI * share) ** 2;
+      paper.fillStroke("marks", due, colours.flash);
+      context.globalAlpha = 1;
+    });
   }
 
   /** @param {number} now */
   #draw(now) {
-    const { paper, penDown } = this;
-    if (penDown) this.#drawLines("pen", { guided: penDown.guided, own: this.own }, false);
-    penDown?.stray.drawOn(paper.contexts.pen, colours.skipped);
+    const { paper, view, desk: { strokes }, settings: { mode } } = this;
+    const due = mode === "watch" ? -1 : view.due;
+    const shows = JSON.stringify([view.due, view.demonstrated, strokes.map(({ fate, isShown }) => [fate, isShown]),
+                                  this.ink.map(({ fate, isDoubted }) => [fate, isDoubted])]);
+    if (shows !== this.shown) {
+      this.shown = shows;
+      paper.drawGrid();
+      strokes.forEach((stroke, i) => {
+        if (stroke.isShown) paper.fillStroke("sheet", stroke, i === due ? colours.due : colours.template);
+      });
+      paper.clear("ink");
+      paper.clear("pen");
+      strokes.forEach((stroke, i) => {
+        const isDemonstrated = mode === "watch" && (view.is_finished || i < view.demonstrated);
+        if (stroke.fate === constants.FATE_SKIPPED) paper.fillStroke("ink", stroke, colours.skipped);
+        if (isDemonstrated) paper.fillStroke("ink", stroke, colours.ink);
+      });
+      for (const ink of this.ink) this.#drawInk(ink, true);
+    } else if (this.ink.length > 0) {
+      this.#drawInk(this.ink[this.ink.length - 1], false);
+    }
     paper.clear("marks");
-    const due = this.desk.strokes[this.desk.due];
-    if (this.mode.hasStart && due && !(penDown && !penDown.finish)) paper.markStart(due);
+    if (view.shows_start && this.due) paper.markStart(this.due);
     this.animations.play(now);
+    if (view.demonstrated >= 0) {
+      const colour = mode === "watch" ? colours.ink : colours.flash;
+      paper.fillBeginning("marks", strokes[view.demonstrated], colour, view.demonstrated_share);
+    }
     this.marks();
-    if (this.hasPointer && !this.isWritten) paper.markPen(this.tip[0], this.tip[1], this.isOnPaper);
+    if (this.hasPointer && !view.is_finished) paper.markPen(view.pen_tip[0], view.pen_tip[1], view.is_on_paper !== 0);
   }
 
-  /** The ink that is to be seen of a pen-down. @param {"ink" | "pen"} layer
-   * @param {{guided: InkLine, own: InkLine[]}} penDown @param {boolean} isWhole @param {string} [usual] its colour */
-  #drawLines(layer, { guided, own }, isWhole, usual = colours.ink) {
-    const context = this.paper.contexts[layer], ink = this.isGuided ? this.settings.ink : "own";
-    const draw = (/** @type {InkLine} */ line, /** @type {string} */ colour, share = 1) =>
-      (isWhole ? line.drawAll(context, colour, share) : line.drawOn(context, colour, share));
-    if (ink !== "own") draw(guided, usual);
-    if (ink === "own") for (const line of own) draw(line, usual);
-    if (ink === "both") for (const line of own) draw(line, colours.own, 0.25);
-  }
-
-  /** Ink that was refused goes away. @param {PenDown} penDown */
-  #fade(penDown) {
-    this.animations.add(500, (share) => {
-      const context = this.paper.contexts.marks;
-      context.globalAlpha = 0.6 * (1 - share);
-      penDown.guided.drawAll(context, colours.wrong);
-      context.globalAlpha = 1;
-    });
-  }
-
-  /** @param {import("./desk.js").Stroke} stroke @param {() => void} then */
-  #flash(stroke, then) {
-    this.animations.add(900, (share) => {
-      const context = this.paper.contexts.marks;
-      context.globalAlpha = Math.sin(2 * Math.PI * share) ** 2;
-      this.paper.fillStroke("marks", stroke, colours.flash);
-      context.globalAlpha = 1;
-    }, then);
-  }
-
-  /** Writes a stroke on the layer of marks. @param {number} index @param {() => void} [then] */
-  #demonstrate(index, then) {
-    const stroke = this.desk.strokes[index];
-    this.animations.add(250 + (400 * stroke.length) / em, (share) => {
-      this.paper.fillBeginning("marks", stroke, then ? colours.ink : colours.flash, share);
-    }, then);
-  }
-
-  /** Writes all strokes, one after the other. */
-  #watch(index = 0) {
-    const { strokes } = this.desk;
-    if (index === strokes.length) return;
-    this.#demonstrate(index, () => {
-      this.paper.fillStroke("ink", strokes[index], colours.ink);
-      this.animations.add(200, () => {}, () => this.#watch(index + 1));
-    });
+  /** The ink that is to be seen of a pen-down: all of it, or what is new. @param {Ink} ink @param {boolean} isWhole */
+  #drawInk({ fate, isDoubted, guided, own }, isWhole) {
+    const isOpen = fate === constants.FATE_OPEN;
+    if (!isOpen && fate !== constants.FATE_ACCEPTED) return;
+    const context = this.paper.contexts[isOpen && !isDoubted ? "pen" : "ink"];
+    const which = this.isGuided ? this.settings.ink : "own", colour = isDoubted ? colours.skipped : colours.ink;
+    if (which !== "own") guided.draw(context, colour, 1, isWhole);
+    if (which === "own") own.draw(context, colour, 1, isWhole);
+    if (which === "both") own.draw(context, colours.own, 0.25, isWhole);
   }
 }
+

@@ -8,6 +8,7 @@ import { showResult } from "./result.js";
 import { openTrace, packed } from "./trace.js";
 
 const begun = performance.now();
+const missesUntilOffered = 2;  // of a stroke: the next time, it may rather be skipped
 const find = (/** @type {string} */ id) => /** @type {HTMLElement} */ (document.getElementById(id));
 const input = (/** @type {string} */ id) => /** @type {HTMLInputElement} */ (document.getElementById(id));
 
@@ -58,7 +59,7 @@ async function main() {
   function showHint(text, x, y) {
     hint.hidden = text === "";
     hint.textContent = text;
-    const [left, top] = paper.onScreen(x, y), goal = lesson?.desk.strokes[lesson.desk.due];
+    const [left, top] = paper.onScreen(x, y), goal = lesson?.due;
     const width = hint.offsetWidth, height = hint.offsetHeight, size = paperElement.clientWidth;
     const isBelow = goal ? goal.start[1] > y : top < 80;  // so that it does not hide where to begin
     const within = (/** @type {number} */ place, /** @type {number} */ extent) =>
@@ -71,15 +72,17 @@ async function main() {
   }
 
   /** @param {Lesson} lesson */
-  function showProgress({ desk, skipped, isStuck, isWritten, isGuided, mode, settings, trace }) {
-    const isWatched = settings.mode === "watch", count = desk.strokes.length;
+  function showProgress({ view, due, isWritten, isGuided, mode, settings, trace }) {
+    const isWatched = settings.mode === "watch", count = view.stroke_count;
     find("progress").textContent = isWatched ? `${count} strokes`
-      : !isWritten ? `Stroke ${Math.min(desk.due + 1, count)} of ${count}`
-      : skipped.length > 0 ? `${count - skipped.length} of ${count} strokes written` : "Written";
+      : !isWritten ? `Stroke ${Math.min(view.due + 1, count)} of ${count}`
+      : view.skipped > 0 ? `${view.accepted} of ${count} strokes written` : "Written";
     if (isWritten && document.activeElement === find("skip")) find("next").focus();
     input("skip").disabled = isWritten || isWatched;
     input("save").disabled = !trace.hasPenDown;
-    find("skip").classList.toggle("offered", isStuck);
+    input("undo").disabled = view.due === 0 || isWatched;
+    input("show").disabled = isWritten || isWatched;
+    find("skip").classList.toggle("offered", (due?.misses ?? 0) >= missesUntilOffered);
     find("strength").closest("label")?.toggleAttribute("hidden", !mode.isGuided);
     find("ink").hidden = !isGuided;
     if (!isWritten) result.hidden = true;
@@ -87,9 +90,9 @@ async function main() {
 
   const worker = new Worker(new URL("score_worker.js", import.meta.url), { type: "module" });
   /** @param {Lesson} lesson */
-  function judge({ character, settings: { tolerance }, recorder }) {
-    const recorded = recorder.copy();
-    worker.postMessage({ id: ++task, character, tolerance, recorded }, [recorded.buffer]);
+  function judge({ character, settings: { tolerance }, desk }) {
+    const writing = desk.writing();
+    worker.postMessage({ id: ++task, character, tolerance, writing }, [writing.buffer]);
   }
   worker.onerror = () => { find("progress").textContent = "It cannot be judged: the console says why"; };
   worker.onmessage = ({ data }) => {
@@ -103,15 +106,15 @@ async function main() {
 
   /** Whether it could begin. @param {string} character */
   function begin(character) {
-    const before = lesson;
     try {
-      lesson = new Lesson(library, setWith(library, opened, character), character, settings, paper, pointer,
-                          { hint: showHint, changed: showProgress, written: judge });
+      const set = setWith(library, opened, character);
+      if (lesson) lesson.begin(set, character);
+      else lesson = new Lesson(library, set, character, settings, paper, pointer,
+                               { hint: showHint, changed: showProgress, written: judge });
     } catch (error) {
       find("progress").textContent = `${character} cannot be written: ${/** @type {Error} */ (error).message}`;
       return false;
     }
-    before?.close();
     task += 1;  // what the worker still says is of another one
     find("character").textContent = character;
     find("source").hidden = !isImported || !characters.includes(character);
@@ -129,23 +132,21 @@ async function main() {
   /** @param {Partial<import("./lesson.js").Settings>} changed */
   function change(changed) {
     settings = { ...settings, ...changed };
-    if (changed.mode) begin(lesson.character);
-    else {
-      lesson.change(settings);
-      find("ink").hidden = !lesson.isGuided;
-    }
+    lesson.change(settings);
+    showProgress(lesson);
   }
 
   /** What a file says of how it was written. */
   function notice() {
-    const { character, settings, mode, skipped, isGuided, trace } = lesson;
+    const { character, settings, mode, desk, isGuided, trace } = lesson;
     if (!trace.isContinued) return trace.notice;
     const list = (/** @type {unknown[]} */ items) => items.join(", ") || "none";
+    const skipped = desk.strokes.flatMap(({ fate }, i) => (fate === constants.FATE_SKIPPED ? [i + 1] : []));
     const tolerance = Object.entries(tolerances).find(([, value]) => value === settings.tolerance)?.[0];
     return [...(trace.notice ? [trace.notice] : []), `written on the page of calligraphy ${library.version()}`,
             `character: ${character}`, `mode: ${mode.name}`,
             `guide: ${isGuided ? `${Math.round(100 * settings.strength)} %` : "none"}`, `tolerance: ${tolerance}`,
-            `skipped strokes: ${list(skipped.map((stroke) => stroke + 1))}`, `pointer: ${list(trace.kinds)}`,
+            `skipped strokes: ${list(skipped)}`, `pointer: ${list(trace.kinds)}`,
             `date: ${localTime()}`].join("\n");
   }
 
@@ -202,8 +203,10 @@ async function main() {
     change({ strength: Number(input("strength").value) / 100 });
   };
   input("strength").addEventListener("input", changeStrength);
-  find("again").addEventListener("click", () => begin(lesson.character));
-  find("skip").addEventListener("click", () => lesson.skip());
+  find("again").addEventListener("click", () => lesson.again());
+  find("skip").addEventListener("click", () => lesson.send(constants.LESSON_SKIP));
+  find("undo").addEventListener("click", () => lesson.send(constants.LESSON_UNDO));
+  find("show").addEventListener("click", () => lesson.send(constants.LESSON_SHOW));
   find("next").addEventListener("click", () => {
     beginFrom(characters.indexOf(lesson.character) + 1);
   });

@@ -6,7 +6,8 @@
  * @property {number} x [m, page]
  * @property {number} y [m, page]
  * @property {boolean} isDown whether it writes
- * @property {boolean} [isPalm] whether what it did since it was put down was no writing
+ * @property {boolean} [isPalm] whether what it did since it was put down was no writing, as of a palm, or of a touch
+ *   that the system took over
  * @property {Stylus} stylus
  * @property {number} buttons sum of the bits of constants.BUTTON_TIP and the like; -1: unknown
  * @property {string} [kind] of the pointer, as in Pointer Events
@@ -90,7 +91,8 @@ export class Pointer {
   /** @param {PointerEvent} event */
   #end(event) {
     if (event.pointerId !== this.id) return;
-    if (event.type === "pointercancel" || event.type === "lostpointercapture") return this.#lift(event.timeStamp);
+    if (event.type === "pointercancel") return this.#lift(event.timeStamp, true);
+    if (event.type === "lostpointercapture") return this.#lift(event.timeStamp);
     this.id = undefined;
     this.#add([event], false);
     return undefined;

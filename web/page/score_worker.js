@@ -2,31 +2,16 @@
 import { load } from "../calligraphy.js";
 import { openCharacters, setWith } from "./characters.js";
 import { layOut } from "./desk.js";
-import { replay } from "./recorder.js";
 
 /**
  * @typedef {object} Task
  * @property {number} id
  * @property {string} character
  * @property {number} tolerance
- * @property {Float64Array} recorded by a Recorder
+ * @property {Float64Array} writing of a LessonHandle
  *
- * @typedef {object} Judgement
- * @property {number} id of the task
- * @property {Score} guided of where the pen was
- * @property {Score} own of where the pointer was
- *
- * @typedef {ReturnType<typeof said>} Score
+ * @typedef {ReturnType<typeof judged>} Judgement
  */
-
-/**
- * A score with the texts of its remarks, since no function reaches the other thread.
- * @param {ReturnType<import("../calligraphy.js").Library["score"]>} score
- */
-const said = (score) => ({
-  ...score,
-  remarks: score.remarks.map(({ text, ...remark }) => ({ ...remark, english: text("en"), chinese: text("zh") })),
-});
 
 const ready = load().then(async (library) => ({ library, characters: await openCharacters(library) }));
 
@@ -39,23 +24,26 @@ self.onmessage = async (/** @type {MessageEvent<Task>} */ { data }) => {
   }
 };
 
-/** @param {import("../calligraphy.js").Library} library @param {number} set @param {Task} task */
-function judged(library, set, { character, recorded, tolerance }) {
-  const page = layOut(library, set, character);
-  const tick = library.struct("tick");
-  const score = (/** @type {boolean} */ isOwn) => {
-    const recording = library.recording_create(page, 1000);
-    try {
-      replay(recorded, tick, isOwn, () => library.recording_add(recording, tick));
-      return said(library.score(recording, 0, tolerance));
-    } finally {
-      library.free(recording);
-    }
-  };
+/** What there is to be said, in words, since no function reaches the other thread.
+ * @param {import("../calligraphy.js").Library} library @param {number} set @param {Task} task */
+function judged(library, set, { character, writing, tolerance }) {
+  const page = layOut(library, set, character), whole = library.struct("character_score");
+  const lesson = library.struct("lesson_score"), read = library.struct("lesson_remark");
+  const strokes = new Int32Array(64);
+  const score = library.score_writing(page, writing, writing.length, tolerance);
   try {
-    return { guided: score(false), own: score(true) };
+    library.score_character(score, 0, whole);
+    library.score_lesson(score, 0, lesson);
+    const remarks = Array.from({ length: lesson.remark_count }, (_, i) => {
+      library.score_lesson_remark(score, 0, i, read, strokes, strokes.length);
+      const text = (/** @type {string} */ language) => library.score_lesson_remark_text(score, 0, i, language);
+      return { ...read.values(), strokes: [...strokes.subarray(0, read.stroke_count)], english: text("en"),
+               chinese: text("zh") };
+    });
+    return { whole: whole.values(), lesson: lesson.values(), remarks };
   } finally {
-    library.discard(tick);
+    [whole, lesson, read].forEach((made) => library.discard(made));
+    library.free(score);
     library.free(page);
   }
 }

@@ -33,9 +33,9 @@ class Lesson {
   Lesson(std::vector<PracticePage> pages, const Capabilities& device, const LessonOptions& options = {});
   ~Lesson();
 
-  /// Processes one sample of the device: force() is then to be written to it. `hand`: where the pupil's own hand is, if
-  /// that is known and differs from the pen, which guidance pulls, as of a pointer [m, page].
-  const HapticTick& update(const DeviceState& sample, const Point* hand = nullptr) noexcept;
+  /// Processes one sample of the device: force() is then to be written to it. `hand`: the pupil's own, if it is known, as
+  /// of a pointer; its pressure is that of the sample.
+  const HapticTick& update(const DeviceState& sample, const LessonHand* hand = nullptr) noexcept;
   /// Device axes [N]. Zero while the lesson is paused or writes the strokes itself (LessonMode::watch), once the force
   /// has been ramped down as for a device that is silent.
   const Eigen::Vector3d& force() const noexcept;

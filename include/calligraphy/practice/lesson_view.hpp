@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <calligraphy/practice/lesson_event.hpp>
@@ -32,10 +33,11 @@ struct LessonStroke {
   bool is_shown = false;                ///< whether its template is to be seen
 };
 
-/// The pupil's own hand at a sample of Lesson::recording().
+/// The pupil's own hand, where it is known and differs from the pen, which guidance pulls; otherwise all is NaN.
 struct LessonHand {
-  Point place = Point::Zero();  ///< NaN: not known, or where the pen is [m, page]
-  double pressure = 0.0;        ///< StylusState::pressure; NaN: not sensed [1]
+  Point place = Point::Constant(std::numeric_limits<double>::quiet_NaN());  ///< where it is [m, page]
+  double time = std::numeric_limits<double>::quiet_NaN();  ///< by the pupil's clock, which never goes back [s]
+  double pressure = std::numeric_limits<double>::quiet_NaN();  ///< StylusState::pressure, known or not [1]
 };
 
 /// Ink of one pen-down: samples of Lesson::recording().

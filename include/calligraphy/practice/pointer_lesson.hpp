@@ -1,11 +1,11 @@
 // A lesson for a mouse, a finger or the pen of a tablet, in the time of its events.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <calligraphy/base/stylus_state.hpp>
@@ -62,13 +62,12 @@ class PointerLesson {
  private:
   PointerLesson(const LessonOptions& options, std::vector<PracticePage> pages, const Capabilities& device);
 
-  static constexpr std::size_t delay = 16;  ///< of the pen behind the pointer when it touches the paper [ticks]
-
   bool takes(const PointerSample& sample);
   void take(const PointerSample& sample);
   void put(const PointerSample& sample, bool is_down);
   void bring(const PointerSample& sample);
-  void tick();
+  void tick(double time);
+  Point hand_at(double time);
   bool is_at_rest() const noexcept;
   bool is_on_paper() const noexcept { return tick_.state != InteractionState::separation; }
 
@@ -82,8 +81,8 @@ class PointerLesson {
   bool is_down_ = false;      ///< a pointer
   PointerSample pointer_;     ///< its last sample, or that of the one that hovers
   bool is_ignored_ = false;   ///< it was no writing
-  std::array<Point, delay> places_;  ///< of the pointer in the last ticks
-  std::size_t next_place_ = 0;
+  std::deque<std::pair<double, Point>> places_;  ///< of the pointer, by time [s]: those that the hand has not passed yet
+  double hand_time_;                             ///< by the clock of the samples [s]
 };
 
 }  // namespace calligraphy
