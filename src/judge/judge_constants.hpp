@@ -120,6 +120,7 @@ struct JudgeConstants {
   double straight_limit = 0.13;            ///< bow that a stroke lacks, or root of the sum of squares of all [em]
   double bent_limit = 0.17;                ///< bow of a straight stroke, over its length [1]
   double wavy_limit = 0.35;                ///< its length over its chord, beyond 1 [1]
+  double waver_limit = 0.018;              ///< root mean square to either side of the course of the pen [em]
   double hook_limit = 0.25;                ///< length of a hook that is lacking [em]
   double place_limit = 0.155;               ///< distance of a stroke from its place [em]
   double place_noise = 3.9;                ///< the same [1]

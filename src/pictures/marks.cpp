@@ -262,7 +262,8 @@ const char* colour_of(const MatchResult& match, std::size_t path) {
 std::vector<Point> places_of_form(const MatchResult& match) {
   std::vector<Point> places;
   for (const StrokeRemark& remark : match.remarks) {
-    const bool is_on_all = remark.kind == StrokeRemarkKind::straight && remark.stroke_count > 1;
+    const bool is_shape = remark.kind == StrokeRemarkKind::straight || remark.kind == StrokeRemarkKind::wavy;
+    const bool is_on_all = is_shape && remark.stroke_count > 1;
     if (remark.kind <= StrokeRemarkKind::parts || is_on_all || !remark.place.allFinite()) continue;
     places.push_back(remark.place);
   }

@@ -408,7 +408,7 @@ TEST_CASE("every remark of form says something else", "[judge]") {
     if (Kind(kind) == Kind::crossing || Kind(kind) == Kind::no_crossing || Kind(kind) == Kind::proportion) {
       remarks.push_back(remark), remarks.back().other_character = U'水';
     }
-    if (Kind(kind) == Kind::overlap || Kind(kind) == Kind::straight) {
+    if (Kind(kind) == Kind::overlap || Kind(kind) == Kind::straight || Kind(kind) == Kind::wavy) {
       remarks.push_back(remark), remarks.back().stroke_count = 5;
     }
     if (Kind(kind) == Kind::length) remarks.push_back(remark), remarks.back().length = 2.0;

@@ -36,6 +36,20 @@ PenPath line(const Point& from, const Point& to) {
   return path;
 }
 
+/// A sine wave about a path, sampled every 1 % of the em along it.
+PenPath wave_about(const PenPath& path, double amplitude, double period) {
+  const double length = path_length(path);
+  const std::vector<Point> course = points_along(path, length, 2 + static_cast<std::size_t>(length / 0.01));
+  PenPath wave;
+  for (std::size_t i = 0; i < course.size(); ++i) {
+    const Point along = course[std::min(i + 1, course.size() - 1)] - course[i - std::min<std::size_t>(i, 1)];
+    const double angle = 2.0 * std::numbers::pi * length / period * static_cast<double>(i) /
+                         static_cast<double>(course.size() - 1);
+    wave.push_back(course[i] + amplitude * std::sin(angle) * Point(-along.y(), along.x()).normalized());
+  }
+  return wave;
+}
+
 void reverse(PenPath& path) { std::reverse(path.begin(), path.end()); }
 
 void append(PenPath& path, const PenPath& more) {
@@ -887,6 +901,23 @@ TEST_CASE("invalid paths are rejected by number", "[judge]") {
   CHECK(refusal() == "pen-down 2 has a point 2e+09 em away, expected at most 1e+09");
   drawn.assign(1001, PenPath{{0.5, 0.5}});
   CHECK(refusal().find("1001 pen-downs") == 0);
+}
+
+TEST_CASE("a pen that goes to and fro by 5 % of the em wavers, and one that trembles by 1.5 % does not", "[judge]") {
+  const Character eternal = character_of("永");
+  for (const double period : {0.08, 0.12, 0.2}) {
+    for (const double amplitude : {0.05, 0.015 * std::numbers::sqrt2}) {
+      std::vector<PenPath> paths = copy_of(eternal), one = paths;
+      for (PenPath& path : paths) path = wave_about(path, amplitude, period);
+      one[4] = paths[4];
+      CAPTURE(period, amplitude);
+      const MatchResult all = match_strokes(eternal, paths, JudgeTolerances::lenient());
+      const MatchResult of_one = match_strokes(eternal, one);
+      const bool wavers = amplitude == 0.05;
+      CHECK(told(all) == (wavers ? "wavy: The strokes waver: draw them with a steady pen.\n" : ""));
+      CHECK(told(of_one) == (wavers ? "wavy: Stroke 5 (nà) wavers: draw it with a steady pen.\n" : ""));
+    }
+  }
 }
 
 TEST_CASE("scribbles, points and distant paths give a consistent result", "[judge]") {

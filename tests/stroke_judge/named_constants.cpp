@@ -113,6 +113,7 @@ constexpr auto named_constants = std::to_array<NamedConstant>({
     {"straight_limit", &JudgeConstants::straight_limit},
     {"bent_limit", &JudgeConstants::bent_limit},
     {"wavy_limit", &JudgeConstants::wavy_limit},
+    {"waver_limit", &JudgeConstants::waver_limit},
     {"hook_limit", &JudgeConstants::hook_limit},
     {"place_limit", &JudgeConstants::place_limit},
     {"place_noise", &JudgeConstants::place_noise},

@@ -1061,7 +1061,7 @@ typedef enum calligraphy_remark_kind {
   CALLIGRAPHY_REMARK_SIDE = 17,         ///< a stroke is on the other side of another
   CALLIGRAPHY_REMARK_STRAIGHT = 18,     ///< a stroke lacks its bend, or all of them do
   CALLIGRAPHY_REMARK_BENT = 19,         ///< a stroke is bent that should be straight, or should be bent less
-  CALLIGRAPHY_REMARK_WAVY = 20,         ///< a stroke wavers
+  CALLIGRAPHY_REMARK_WAVY = 20,         ///< a stroke wavers, or all of them do
   CALLIGRAPHY_REMARK_HOOK = 21,         ///< a note: a stroke lacks its hook
   CALLIGRAPHY_REMARK_PLACE = 22,        ///< a stroke is out of place
   CALLIGRAPHY_REMARK_LENGTH = 23,       ///< a stroke is much too long or too short beside the others

@@ -31,7 +31,7 @@ enum class StrokeRemarkKind {
   side,         ///< a stroke is on the other side of another
   straight,     ///< a stroke lacks its bend, or all of them do
   bent,         ///< a stroke is bent that should be straight, or should be bent less
-  wavy,         ///< a stroke wavers
+  wavy,         ///< a stroke wavers, or all of them do
   hook,         ///< a note: a stroke lacks its hook
   place,        ///< a stroke is out of place
   length,       ///< a stroke is much too long or too short beside the others

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "judge/judge_constants.hpp"
+#include "waver.hpp"
 
 namespace calligraphy {
 namespace {
@@ -35,6 +36,8 @@ constexpr double full_bend_length = 0.3, full_wave_length = 0.4;  // lengths fro
 constexpr double least_length_change = 0.3, least_length_difference = 0.2;  // logarithm [1], and [em]
 constexpr double shifted_alike = 0.7;  // difference of the offsets of both ends, over that of the stroke [1]
 constexpr double least_longer = 0.1;                                         // of the wrong stroke [em]
+constexpr double own_waver = 2.0;   // mean square to either side that a hand may have, over that of the stroke [1]
+constexpr double most_waver = 0.5;  // share of the strokes that waver, above which it is the hand [1]
 
 /// Whether a stroke ends about where it begins, as 〇 does: then it has no bow.
 bool is_ring(const FormLine& stroke) { return stroke.chord().norm() < ring * stroke.length(); }
@@ -71,6 +74,25 @@ Bend bend(const FormLine& drawn, const FormLine& stroke) {
   return {std::min(std::max(bowed, waved), most_evident), is_wavy ? std::abs(bow(drawn)) : more * length, is_wavy};
 }
 
+/// The strokes that waver.
+struct Wavering {
+  std::vector<std::size_t> strokes;
+  std::size_t judged = 0, sure = 0;  ///< number of strokes that could waver, and of those that surely do
+  Bend most;
+
+  void add(std::size_t stroke, const Bend& bent, double least) {
+    ++judged;
+    if (!bent.is_wavy || bent.evidence < least) return;
+    strokes.push_back(stroke);
+    sure += bent.evidence >= 1.0;
+    if (bent.evidence > most.evidence) most = bent;
+  }
+  /// Whether so many do that it is the hand, not a stroke.
+  bool is_all() const {
+    return sure >= 2 && static_cast<double>(sure) > most_waver * static_cast<double>(judged);
+  }
+};
+
 /// The direction in which a stroke goes on beyond an end.
 Point outwards(const FormLine& line, StrokeEnd end) {
   constexpr std::size_t back = form_points / 4;
@@ -97,7 +119,7 @@ std::optional<FormLine> part_drawn(const FormLine& drawn, const FormLine& stroke
 class FormFaults {
  public:
   FormFaults(const CharacterForm& form, const WrittenForm& written, double least)
-      : form_(form), laid_(written.laid), least_(least), index_(form.count()) {
+      : form_(form), written_(written), laid_(written.laid), least_(least), index_(form.count()) {
     for (std::size_t k = 0; k < written.strokes.size(); ++k) {
       index_[written.strokes[k]] = k;
       const std::size_t stroke = written.strokes[k];
@@ -305,6 +327,7 @@ class FormFaults {
   void find_shapes() {
     double lacking = 0.0;
     std::vector<std::size_t> straight;
+    Wavering wavering;
     for (const std::size_t i : strokes_) {
       const FormLine& drawn = line(i);
       if (drawn.length() < shortest_drawn || form_.bodies[i].length() < shortest_shaped) continue;
@@ -322,6 +345,11 @@ class FormFaults {
           const Bend found = bend(way, stroke);
           if (found.evidence < bent.evidence) bent = found;
         }
+      }
+      if (wavering_length(i) >= least_wavering_length) {
+        const Bend wavy = waver_of(i);
+        if (wavy.evidence > bent.evidence) bent = wavy;
+        wavering.add(i, bent, least_);
       }
       const Point middle = drawn.points[form_points / 2];
       lacking += lacks * lacks;
@@ -346,13 +374,44 @@ class FormFaults {
              .place = drawn.points.back()});
       }
     }
-    if (straight.size() < 2) return;
-    add({.kind = FaultKind::straight,
-         .stroke = 0,
-         .amount = std::sqrt(lacking),
-         .evidence = std::sqrt(lacking) / judge_constants.straight_limit,
-         .place = box_of_lines(laid_.lines).center(),
-         .straight = std::move(straight)});
+    const Point centre = box_of_lines(laid_.lines).center();
+    if (straight.size() >= 2) {
+      add({.kind = FaultKind::straight,
+           .stroke = 0,
+           .amount = std::sqrt(lacking),
+           .evidence = std::sqrt(lacking) / judge_constants.straight_limit,
+           .place = centre,
+           .strokes = std::move(straight)});
+    }
+    if (wavering.is_all()) {
+      std::erase_if(faults_, [this](const FormFault& fault) {  // too short to tell waves from a bend
+        const bool is_bend = fault.kind == FaultKind::bent || fault.kind == FaultKind::wavy;
+        return is_bend && wavering_length(fault.stroke) < least_wavering_length;
+      });
+      add({.kind = FaultKind::wavy,
+           .stroke = 0,
+           .amount = wavering.most.amount,
+           .evidence = wavering.most.evidence,
+           .place = centre,
+           .strokes = std::move(wavering.strokes)});
+    }
+  }
+
+  /// The length over which a stroke may waver: the character's, or less if not all of it was drawn [em].
+  double wavering_length(std::size_t stroke) const {
+    return std::min(line(stroke).length(), form_.strokes[stroke].length());
+  }
+
+  /// Evidence that the pen went to and fro across the course of a stroke that is long enough to tell, by the mean
+  /// square.
+  Bend waver_of(std::size_t stroke) const {
+    const double length = wavering_length(stroke), limit = judge_constants.waver_limit * judge_constants.waver_limit;
+    PenPath path = written_.paths[*index_[stroke]];
+    for (Point& point : path) point = laid_.map(point);
+    const double square = waver(path, length);
+    if (square < least_ * limit) return {};  // saves the time for the character's stroke
+    const double beyond = square - own_waver * waver(form_.strokes[stroke].points, length);
+    return {std::min(beyond / limit, most_evident), std::sqrt(2.0 * square), true};
   }
 
   void find_places() {
@@ -411,6 +470,7 @@ class FormFaults {
   }
 
   const CharacterForm& form_;
+  const WrittenForm& written_;
   const LaidWriting& laid_;
   const double least_;
   std::vector<std::size_t> strokes_;

@@ -25,7 +25,7 @@ struct FormFault {
   Point place = Point::Zero();                               ///< where it is seen, on the writing [em]
   Point offset = Point::Zero();                              ///< StrokeRemark::offset [em]
   double length = std::numeric_limits<double>::quiet_NaN();  ///< over that of the stroke, beside the others [1]
-  std::vector<std::size_t> straight = {};                    ///< if all are straight, those that lack a bow
+  std::vector<std::size_t> strokes = {};                     ///< of a fault of the whole: those at fault
   bool is_shift = false;                                     ///< of a place: the stroke is as it should be otherwise
 };
 

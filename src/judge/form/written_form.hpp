@@ -16,7 +16,8 @@ namespace calligraphy {
 /// The strokes of a character that were written, each by a pen-down of its own and in its direction, laid on it.
 struct WrittenForm {
   std::vector<std::size_t> strokes;  ///< in ascending order
-  LaidWriting laid;                  ///< by index in `strokes`
+  std::vector<PenPath> paths;        ///< as they were written, each in the direction of its stroke
+  LaidWriting laid;                  ///< by index in `strokes`, as `paths`
 };
 
 /// `drawn` says what each of the paths wrote. Joined and broken strokes are left out, and those of another shape.

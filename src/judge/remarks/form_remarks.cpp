@@ -35,7 +35,7 @@ bool is_relation(StrokeRemarkKind kind) {
 
 /// Causes come before what follows from them: a shape before the crossings that it makes.
 int rank(const FormFault& fault) {
-  if (is_shape(fault.kind)) return fault.straight.empty() ? 1 : 0;
+  if (is_shape(fault.kind)) return fault.strokes.empty() ? 1 : 0;
   if (fault.kind == StrokeRemarkKind::overlap) return 2;
   if (fault.kind == StrokeRemarkKind::place) return fault.is_shift ? 3 : 6;
   if (fault.kind == StrokeRemarkKind::proportion) return 5;
@@ -56,7 +56,7 @@ struct FaultGroup {
 };
 
 std::vector<std::size_t> strokes_of(const FormFault& fault) {
-  if (!fault.straight.empty()) return fault.straight;
+  if (!fault.strokes.empty()) return fault.strokes;
   if (fault.other) return {fault.stroke, *fault.other};
   return {fault.stroke};
 }
@@ -64,7 +64,7 @@ std::vector<std::size_t> strokes_of(const FormFault& fault) {
 /// Whether a fault shows what another one already says.
 bool explains(const FaultGroup& cause, const FormFault& fault) {
   if (!cause.is_about(fault)) return false;
-  if (!cause.fault.other) return fault.straight.empty() || is_shape(cause.fault.kind);  // a shape, a place or a length
+  if (!cause.fault.other) return fault.strokes.empty() || is_shape(cause.fault.kind);  // a shape, a place or a length
   if (cause.fault.kind == StrokeRemarkKind::overlap || cause.fault.kind == StrokeRemarkKind::side) return true;
   if (fault.other) {
     const bool is_same_pair = cause.has(fault.stroke) && cause.has(*fault.other);
@@ -140,7 +140,7 @@ std::vector<StrokeRemark> form_remarks(const CharacterForm& form, const WrittenF
                         .offset = fault.offset};
     std::sort(group.strokes.begin(), group.strokes.end());
     const auto [first, last] = std::pair(group.strokes.front(), group.strokes.back());
-    if (!fault.straight.empty()) {
+    if (!fault.strokes.empty()) {
       remark.path = 0, remark.path_count = static_cast<int>(drawn.size());
       remark.stroke = 0, remark.stroke_count = static_cast<int>(form.count());
     } else if (fault.kind == StrokeRemarkKind::overlap && group.strokes.size() > 2 &&

@@ -158,6 +158,7 @@ class Sentence {
         return say(key + at_end);
       case Kind::overlap:
       case Kind::straight:
+      case Kind::wavy:
         return say(remark_.stroke_count > 1 ? key + ".all" : key);
       case Kind::length:
         return say(remark_.length < 1.0 ? "length.short" : "length.long");
