@@ -27,7 +27,7 @@ constexpr double meeting = 0.04, corner = 0.03;        // of an end from a strok
 constexpr double crossing_tail = 0.08, lifted = 0.005;  // [em]
 constexpr double least_rest = 0.1;                      // of a stroke that is cut [em]
 constexpr double least_gap = 0.06, most_gap = 0.3;      // of strokes side by side [em]
-constexpr double straight_bow = 0.05, long_stroke = 0.4, least_hook = 0.05;  // [em]
+constexpr double straight_bow = 0.05, long_stroke = 0.4, least_waver = 0.25, least_hook = 0.05;  // [em]
 constexpr double same_image = 0.08;                     // mean distance [em]
 
 /// A stroke as it was drawn, or as it should be.
@@ -129,6 +129,10 @@ class Malformer {
         return arch(row.size);
       case FormFault::zigzag:
         return zigzag(row.size);
+      case FormFault::waver:
+        return waver(row.size);
+      case FormFault::waver_all:
+        return waver_all(row.size);
       case FormFault::displace:
         return displace(row.size);
       case FormFault::shrink_half:
@@ -360,6 +364,33 @@ class Malformer {
     return true;
   }
 
+  PenPath wavering(const PenPath& path, double amplitude) {
+    constexpr double step = 0.005;  // [em]
+    const double length = path_length(path), period = random_.between(0.08, 0.2);
+    const PenPath course = evenly(path, 3 + static_cast<int>(length / step));
+    double phase = random_.between(0.0, 1.0);
+    PenPath wave;
+    for (std::size_t k = 0; k < course.size(); ++k) {
+      const Point along = course[std::min(k + 4, course.size() - 1)] - course[k - std::min(k, std::size_t{4})];
+      const double share = phase - std::floor(phase), height = amplitude * (4.0 * std::abs(share - 0.5) - 1.0);
+      wave.push_back(course[k] + height / std::max(along.norm(), 1e-9) * Point(-along.y(), along.x()));
+      phase += length / static_cast<double>(course.size() - 1) / period;
+    }
+    return wave;
+  }
+  bool can_waver(std::size_t i) const { return std::min(drawn_[i].length, own_[i].length) >= least_waver; }
+  bool waver(double amplitude) {
+    const auto stroke = choose([&](std::size_t i) { return can_waver(i); });
+    if (!stroke) return false;
+    replace(*stroke, wavering(paths_[*stroke], amplitude));
+    return true;
+  }
+  bool waver_all(double amplitude) {
+    if (!choose([&](std::size_t i) { return can_waver(i); })) return false;
+    for (PenPath& path : paths_) path = wavering(path, amplitude);
+    return true;
+  }
+
   bool displace(double by) {
     if (count() < 2) return false;
     const auto stroke = static_cast<std::size_t>(random_.index(count()));
@@ -482,6 +513,8 @@ const std::vector<FormRow>& form_rows() {
       {"turned-half", FormFault::turn, 0.0, {Kind::orientation}, Way::half_turned},
       {"twice", FormFault::write_twice, 0.0, {Kind::several}},
       {"scribble", FormFault::scribble, 0.0, {Kind::unreadable}},
+      {"waver-5", FormFault::waver, 0.05, {Kind::wavy}},
+      {"all-waver-5", FormFault::waver_all, 0.05, {Kind::wavy}},
   };
   return all;
 }

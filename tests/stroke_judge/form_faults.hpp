@@ -24,6 +24,8 @@ enum class FormFault {
   chord,         ///< one with a bow of 0.2 to 0.3 em is straight
   arch,          ///< a straight one of at least 0.4 em is an arc with this bow [em]
   zigzag,        ///< such a one is a square wave of this amplitude [em]
+  waver,         ///< one of at least 0.25 em is a triangle wave of this amplitude about itself, of 0.08 to 0.2 em [em]
+  waver_all,     ///< all are, where one is as long [em]
   displace,      ///< one is moved, in any direction [em]
   shrink_half,   ///< half of the strokes are of this size about their middle [1]
   drop_hook,     ///< one lacks its hook

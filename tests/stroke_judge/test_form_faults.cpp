@@ -125,12 +125,17 @@ TEST_CASE("each fault of one stroke is there, by the amount of its row, and nowh
   });
   check_each_form("arch-25", [](const Seeded& each) { CHECK(bow(each.is()) == Approx(0.25).epsilon(0.01)); });
   check_each_form("zigzag-16", [](const Seeded& each) { CHECK(bow(each.is()) == Approx(0.16).epsilon(0.05)); });
+  check_each_form("waver-5", [](const Seeded& each) {
+    CHECK(mean_distance_from(each.is(), each.was()) == Approx(0.025).margin(0.006));  // half of the amplitude
+    CHECK(path_length(each.is()) > 1.3 * path_length(each.was()));
+  });
   check_each_form("displaced-30", [](const Seeded& each) {
     CHECK((each.is().front() - each.was().front()).norm() == Approx(0.3));
     CHECK((each.is().back() - each.was().back()).norm() == Approx(0.3));
   });
   for (const FormRow& row : form_rows()) {
-    if (row.fault > FormFault::displace || row.fault == FormFault::collapse_all || row.fault == FormFault::chords) {
+    if (row.fault > FormFault::displace || row.fault == FormFault::collapse_all || row.fault == FormFault::chords ||
+        row.fault == FormFault::waver_all) {
       continue;
     }
     check_each_form(row.name, [](Seeded each) {
@@ -191,7 +196,7 @@ TEST_CASE("each fault of form in middle lines and in people's pens is told, and 
                             {"chord-20-30", 90}, {"arch-25", 95},     {"zigzag-16", 95},   {"displaced-30", 78},
                             {"displaced-20", 68}, {"parts", 90},      {"mirrored", 90},    {"upside-down", 90},
                             {"turned-left", 95}, {"turned-right", 95}, {"turned-half", 95}, {"twice", 97},
-                            {"scribble", 90}};
+                            {"scribble", 90},    {"waver-5", 93},     {"all-waver-5", 97}};
   const auto check = [&](const std::vector<RightPen>& pens, const AcceptedForms& forms, double less, double clean) {
     Share remarked;
     for (const FormOutcome& outcome : judge_right_pens(pens, forms, {}, nullptr, 0)) remarked.add(outcome.form);
