@@ -24,23 +24,24 @@ struct Lesson::Loop {
       : commands(max_commands),
         events(max_events),
         samples(capacity),
-        inputs(records_every_tick ? capacity : 1),
+        ticks(records_every_tick ? capacity : 1),
         machine(scene, events),
         wanted(&scene),
         records_all(records_every_tick) {}
 
   void obey() noexcept;
-  void record(const SessionTick& session, const HapticTick& tick, const DeviceState& input,
-              const LessonHand* hand) noexcept;
+  void take(LessonCommandKind command) noexcept;
+  void record(const HapticTick& tick, const DeviceState& input, const LessonHand* hand) noexcept;
 
   SampleQueue<LessonCommand> commands;
   SampleQueue<LessonEvent> events;
   SampleQueue<LessonSample> samples;
-  SampleQueue<DeviceState> inputs;  ///< of the same ticks
+  SampleQueue<RecordedTick> ticks;  ///< the same, if all are recorded
   LatestValue<LessonState> states;
   LessonMachine machine;
   std::atomic<LessonScene*> wanted;
   bool records_all;
+  bool can_be_made_again = true;  ///< the ticks of the page so far, by a renderer that knows nothing of the lesson
   bool has_next = false;  ///< the next command
   LessonCommand next;
 };
@@ -50,22 +51,47 @@ void Lesson::Loop::obey() noexcept {
   const std::uint64_t tick = machine.state().tick;
   LessonScene* const scene = wanted.load(std::memory_order_acquire);
   if (scene != &machine.scene() && scene->tick <= tick && machine.can_enter(*scene)) [[unlikely]] {
+    const bool begins = scene->start != machine.scene().start;
+    can_be_made_again = begins && !scene->wanted.guidance.assist.enabled;  // what it has faded to is kept
     machine.enter(*scene);
   }
   if (!has_next) has_next = commands.pop(next);
   while (has_next && next.tick <= tick) [[unlikely]] {
-    machine.take(next.kind);
+    take(next.kind);
     has_next = commands.pop(next);
   }
 }
 
-void Lesson::Loop::record(const SessionTick& session, const HapticTick& tick, const DeviceState& input,
-                          const LessonHand* hand) noexcept {
-  LessonHand known = hand ? *hand : LessonHand();
-  known.pressure = input.stylus.pressure;
-  const bool is_pushed = samples.push({session.sample(), known, tick.to_start, tick.hint, machine.ink(),
-                                       machine.scene().start});
-  if (records_all && is_pushed) inputs.push(session.input(input));
+/// Carries out a command: one that tells the renderer which stroke is due, or will when the pen is lifted, is not in
+/// what came in.
+void Lesson::Loop::take(LessonCommandKind command) noexcept {
+  using Kind = LessonCommandKind;
+  const bool is_of_pen_down = command == Kind::pause || command == Kind::ignore;
+  const bool is_of_stroke = command == Kind::skip || command == Kind::undo;
+  if (is_of_stroke || (is_of_pen_down && machine.state().pen_down >= 0)) can_be_made_again = false;
+  machine.take(command);
+}
+
+void Lesson::Loop::record(const HapticTick& tick, const DeviceState& input, const LessonHand* hand) noexcept {
+  LessonSample sample;
+  sample.time = tick.time;
+  sample.pen_tip = tick.pen_tip.head<2>();
+  if (hand) sample.hand = *hand;
+  sample.hand.pressure = input.stylus.pressure;
+  sample.height = static_cast<float>(tick.pen_tip.z());
+  sample.device_point = tick.device_point.cast<float>();
+  sample.force = tick.page_force.cast<float>();
+  sample.pen_down = machine.ink();
+  sample.start = machine.scene().start;
+  sample.character = tick.character;
+  sample.stroke = tick.stroke;
+  sample.events = tick.events;
+  sample.state = tick.state;
+  sample.status = tick.status;
+  sample.can_be_made_again = can_be_made_again;
+  const bool is_pushed = samples.push(sample);
+  const SessionTick& session = machine.scene().session;
+  if (records_all && is_pushed) ticks.push({session.sample(), session.input(input)});
 }
 
 Lesson::Lesson(std::vector<PracticePage> pages, const Capabilities& device, const LessonOptions& options)
@@ -78,7 +104,7 @@ const HapticTick& Lesson::update(const DeviceState& sample, const LessonHand* ha
   Loop& loop = *loop_;
   LessonMachine& machine = loop.machine;
   loop.obey();
-  SessionTick& session = machine.scene().session;
+  LessonScene& scene = machine.scene();
   const DeviceState* seen = &sample;
   DeviceState silent;
   if (!machine.sees_pen()) [[unlikely]] {
@@ -86,22 +112,31 @@ const HapticTick& Lesson::update(const DeviceState& sample, const LessonHand* ha
     silent.status = DeviceStatus::stale;
     seen = &silent;
   }
-  const HapticTick& tick = session.update(*seen);
+  const HapticTick& tick = scene.is_plain ? scene.renderer.update(*seen) : scene.session.update(*seen);
   if (hand) machine.set_hand(hand->place);
   machine.update(tick);
-  if (machine.ink() >= 0 || tick.events != TickEvent::none || loop.records_all) loop.record(session, tick, *seen, hand);
+  const bool has_set_assistance = machine.state().assistance != tick.assistance;
+  if (tick.events != TickEvent::none && has_set_assistance) [[unlikely]] loop.can_be_made_again = false;
+  if (machine.ink() >= 0 || tick.events != TickEvent::none || loop.records_all) loop.record(tick, *seen, hand);
   if (machine.take_change() || machine.state().tick % ticks_of_a_look == 0) loop.states.publish(machine.state());
   return tick;
 }
 
-const Eigen::Vector3d& Lesson::force() const noexcept { return loop_->machine.scene().session.force(); }
-void Lesson::ignore() noexcept { loop_->machine.take(LessonCommandKind::ignore); }
+const Eigen::Vector3d& Lesson::force() const noexcept {
+  const LessonScene& scene = loop_->machine.scene();
+  return scene.is_plain ? scene.renderer.last().force : scene.session.force();
+}
+void Lesson::ignore() noexcept { loop_->take(LessonCommandKind::ignore); }
 bool Lesson::is_waiting() const noexcept { return loop_->machine.is_waiting(); }
 bool Lesson::has_commands() const noexcept {
   return loop_->has_next || !loop_->commands.is_empty() ||
          loop_->wanted.load(std::memory_order_relaxed) != &loop_->machine.scene();
 }
-std::exception_ptr Lesson::law_error() const { return loop_->machine.scene().session.error(); }
+std::exception_ptr Lesson::law_error() const {
+  const LessonScene& scene = loop_->machine.scene();
+  if (!loop_->machine.state().has_failed) return nullptr;
+  return scene.is_plain ? guidance_error(scene.renderer) : scene.session.error();
+}
 
 bool Lesson::send(const LessonCommand& command) noexcept { return loop_->commands.push(command); }
 
@@ -129,10 +164,10 @@ void Lesson::change(const LessonOptions& options, std::uint64_t tick) {
 
 const LessonView& Lesson::look() {
   LessonSample sample;
-  DeviceState input;
-  // A sample is pushed before its input, and is taken after it: so neither queue is full before the other.
+  RecordedTick tick;
+  // A sample is pushed before its tick, and is taken after it: so neither queue is full before the other.
   if (loop_->records_all) {
-    while (loop_->inputs.pop(input) && loop_->samples.pop(sample)) desk_->take(sample, &input);
+    while (loop_->ticks.pop(tick) && loop_->samples.pop(sample)) desk_->take(sample, &tick);
   } else {
     while (loop_->samples.pop(sample)) desk_->take(sample, nullptr);
   }

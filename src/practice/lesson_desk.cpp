@@ -62,13 +62,27 @@ void LessonDesk::begin_recording(std::uint32_t start) {
   view_.ink.clear();
 }
 
-void LessonDesk::take(const LessonSample& sample, const DeviceState* input) {
+void LessonDesk::take(const LessonSample& sample, const RecordedTick* exact) {
   if (sample.start < recorded_) return;
   if (sample.start > recorded_) begin_recording(sample.start);
   const std::size_t index = recording_.samples.size();
-  recording_.samples.push_back(sample.sample);
   hands_.push_back(sample.hand);
-  if (input) recording_.inputs.push_back(*input);
+  if (exact) {
+    recording_.samples.push_back(exact->sample);
+    recording_.inputs.push_back(exact->input);
+    if (!sample.can_be_made_again) recording_.setup.reset();
+  } else {
+    RecordedSample& made = recording_.samples.emplace_back();
+    made.time = sample.time;
+    made.device_point = sample.device_point.cast<double>();
+    made.pen_tip << sample.pen_tip, static_cast<double>(sample.height);
+    made.force = sample.force.cast<double>();
+    made.state = sample.state;
+    made.events = sample.events;
+    made.status = sample.status;
+    made.character = sample.character;
+    made.stroke = sample.stroke;
+  }
   if (sample.pen_down < 0) return;
   std::vector<LessonInk>& ink = view_.ink;
   const bool continues = !ink.empty() && ink.back().pen_down == sample.pen_down && ink.back().end == index;

@@ -16,14 +16,28 @@
 
 namespace calligraphy {
 
-/// A tick for the half that looks on.
+/// A tick for the half that looks on, in few cache lines: not all of it to the last bit.
 struct LessonSample {
-  RecordedSample sample;
-  LessonHand hand = {};
-  Point to_start = Point::Zero();  ///< HapticTick::to_start
-  WritingHint hint = WritingHint::none;
-  int pen_down = -1;        ///< number of the one whose ink it is; -1: none
+  double time = 0.0;               ///< RecordedSample::time
+  Point pen_tip = Point::Zero();   ///< RecordedSample::pen_tip, and its height [m, page]
+  LessonHand hand;
+  float height = 0.0F;
+  Eigen::Vector3f device_point = Eigen::Vector3f::Zero();
+  Eigen::Vector3f force = Eigen::Vector3f::Zero();
+  int pen_down = -1;       ///< number of the one whose ink it is; -1: none
   std::uint32_t start = 0;  ///< LessonScene::start
+  int character = 0;
+  int stroke = 0;
+  TickEvent events = TickEvent::none;
+  InteractionState state = InteractionState::separation;
+  TickStatus status = TickStatus::ok;
+  bool can_be_made_again = true;  ///< as the ticks before: a renderer that gets the same samples does the same
+};
+
+/// The same tick, exactly.
+struct RecordedTick {
+  RecordedSample sample;
+  DeviceState input;
 };
 
 class LessonDesk {
@@ -45,7 +59,8 @@ class LessonDesk {
   /// Ticks that wait for look() at most.
   std::size_t capacity() const;
 
-  void take(const LessonSample& sample, const DeviceState* input);
+  /// `exact`: the same, if every tick is recorded.
+  void take(const LessonSample& sample, const RecordedTick* exact);
   void take(const LessonEvent& event);
   void take(const LessonState& state);
   bool take_event(LessonEvent& event) noexcept;

@@ -92,6 +92,7 @@ LessonScene::LessonScene(const PracticePage& on, const Capabilities& held, const
       strokes(strokes_on(on)),
       progress(std::make_shared<LessonProgress>(strokes.size())),
       renderer(on.characters, given.mapping.value_or(upright_page(on.width, on.height)), held, wanted),
+      is_plain(given.feedback == FeedbackMode::force && !given.law && !given.records_all),
       session(renderer, held, given.feedback, given.law, given.records_all) {}
 
 LessonMachine::LessonMachine(LessonScene& scene, SampleQueue<LessonEvent>& events) noexcept
@@ -166,7 +167,7 @@ void LessonMachine::update(const HapticTick& tick) noexcept {
   state_.tick += 1;
   state_.time = tick.time;
   state_.pen_tip = tick.pen_tip.head<2>();
-  if (scene_->session.has_failed()) [[unlikely]] state_.has_failed = true;
+  if (tick.status == TickStatus::bad_law || scene_->session.has_failed()) [[unlikely]] state_.has_failed = true;
   if (tick.events != TickEvent::none) [[unlikely]] take_events(tick);
   if (skip_asked_ >= 0) [[unlikely]] skip();
   if (undo_asked_) [[unlikely]] undo();

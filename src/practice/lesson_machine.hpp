@@ -58,6 +58,7 @@ struct LessonScene {
   std::vector<StrokeOnPage> strokes;
   std::shared_ptr<LessonProgress> progress;
   HapticRenderer renderer;
+  bool is_plain;  ///< the force is the renderer's, and no tick need be recorded exactly: there is no session
   SessionTick session;
 };
 

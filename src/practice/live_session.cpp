@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
+#include <cstddef>
 #include <thread>
+#include <utility>
 
-#include <calligraphy/devices/sample_queue.hpp>
+#include <calligraphy/practice/lesson.hpp>
 
 #include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
@@ -18,19 +19,15 @@ namespace {
 /// Time between two updates of the display.
 constexpr std::chrono::milliseconds update_interval(20);
 
-/// Time for which the calling thread can be away before ticks are lost [s].
-constexpr double max_absence = 10.0;
-
 /// Minimum timeout of the servo loop, which matters at low rates [ticks].
 constexpr double min_timeout = 3.0;
 
-/// One tick for the calling thread: what the recording keeps, and what only a display shows.
-struct LiveTick {
-  RecordedSample sample;
-  DeviceState input;
-  WritingHint hint = WritingHint::none;
-  Point to_start = Point::Zero();
-};
+/// Share of the page that is written or skipped [1].
+double share_done(const PracticePage& page, const LessonView& lesson) {
+  const auto due = static_cast<std::size_t>(lesson.due);
+  if (due == lesson.strokes.size()) return 1.0;
+  return share_written(page, lesson.strokes[due].character, lesson.strokes[due].stroke);
+}
 
 }  // namespace
 
@@ -45,17 +42,19 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
   require_above_zero("timeout", options.timeout, "s");
   validate(device.capabilities());
   const MotionMapping mapping = options.mapping.value_or(upright_page(page.width, page.height));
-  const Capabilities capabilities = with_peak_force(device.capabilities(), options.peak_force);
-  HapticRenderer renderer(page.characters, mapping, capabilities, options.renderer);
-  SessionTick session(renderer, capabilities, options.mode, options.law, true);
-  const double rate = renderer.options().servo_rate;
-  SampleQueue<LiveTick> queue(static_cast<std::size_t>(std::ceil(max_absence * rate)));
+  LessonOptions lesson_options;
+  lesson_options.renderer = options.renderer;
+  lesson_options.feedback = options.mode;
+  lesson_options.law = options.law;
+  lesson_options.mapping = mapping;
+  lesson_options.records_all = true;
+  Lesson lesson({page}, with_peak_force(device.capabilities(), options.peak_force), lesson_options);
+  const double rate = lesson.rate();
   ServoLoopOptions servo = options.servo;
   if (servo.servo.rate == 0.0) servo.servo.rate = rate;
   servo.servo.timeout = std::max(servo.servo.timeout, min_timeout / rate);
   std::atomic<bool> in_front = false;  // the way out of an inkwell, which lies behind the paper, is not writing
   std::atomic<double> behind = 0.0;
-  std::atomic<bool> has_failed = false;
   ForceLaw loop_law = [&](const DeviceState& state) noexcept {
     if (!in_front.load(std::memory_order_relaxed)) {
       const double depth = -mapping.to_page(state.position).z();
@@ -63,34 +62,28 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
       if (!(depth < 0.0)) return Eigen::Vector3d(Eigen::Vector3d::Zero());
       in_front.store(true, std::memory_order_relaxed);
     }
-    const HapticTick& tick = session.update(state);
-    queue.push({session.sample(), session.input(state), tick.hint, tick.to_start});
-    if (session.has_failed()) has_failed.store(true, std::memory_order_relaxed);
-    return Eigen::Vector3d(session.force());
+    lesson.update(state);
+    return Eigen::Vector3d(lesson.force());
   };
   loop_law.rate = rate;
   ServoLoop loop(device, std::move(loop_law), servo);
 
   LiveResult result;
-  result.recording = recording_for(page, renderer, options.renderer, capabilities, options.mode, options.law);
   LiveView view;
-  LiveTick newest;
   const auto take_over = [&] {
-    while (queue.pop(newest)) {
-      result.recording.samples.push_back(newest.sample);
-      result.recording.inputs.push_back(newest.input);
-    }
-    if (options.keep) options.keep(result.recording);
-    view.newest = newest.sample;
-    view.hint = newest.hint;
-    view.to_start = newest.to_start;
+    view.lesson = lesson.look();
+    view.events.clear();
+    for (LessonEvent event; lesson.take_event(event);) view.events.push_back(event);
+    view.progress = share_done(page, view.lesson);
+    const Recording& recording = lesson.recording();
+    if (!recording.samples.empty()) view.newest = recording.samples.back();
+    if (options.keep) options.keep(recording);
   };
-  const int count = static_cast<int>(page.characters.size());
   const auto watch = [&] {
     view.advice = device.advice();
     return !options.watch || options.watch(view);
   };
-  if (options.keep) options.keep(result.recording);
+  take_over();
   bool is_wanted = true;
   const double begin = monotonic_seconds();
   result.warnings = loop.start([&](const std::vector<std::string>& warnings) {
@@ -103,15 +96,18 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
     view.servo = loop.status();
     view.started = in_front.load(std::memory_order_relaxed);
     view.behind = behind.load(std::memory_order_relaxed);
-    view.progress = share_written(page, view.newest.character, view.newest.stroke);
-    if (!watch() || has_failed.load(std::memory_order_relaxed)) break;
-    if (view.newest.character >= count && view.newest.state != InteractionState::writing) break;
+    if (!watch() || view.lesson.has_failed) break;
+    if (view.lesson.is_finished && !view.lesson.is_on_paper) break;
+    if (!options.commands) continue;
+    for (const LessonCommandKind command : options.commands()) lesson.send({command});
   }
   loop.stop();
   take_over();
+  result.recording = lesson.recording();
+  result.writing = lesson.writing();
   result.statistics = loop.statistics();
-  result.dropped = queue.dropped();
-  result.error = session.error();
+  result.dropped = view.lesson.lost_ticks;
+  result.error = lesson.law_error();
   return result;
 }
 

@@ -63,9 +63,13 @@ void SessionTick::apply_law(DeviceState state) noexcept {
 std::exception_ptr SessionTick::error() const {
   if (!has_failed_) return nullptr;
   if (error_) return error_;
-  if (renderer_.law_error()) return renderer_.law_error();
-  const std::string law = law_ ? "force law \"" + law_.name : "guidance law \"" + renderer_.law().name;
-  return std::make_exception_ptr(ValueError(law + "\": its force is not finite"));
+  if (!law_ || renderer_.law_error()) return guidance_error(renderer_);
+  return std::make_exception_ptr(ValueError("force law \"" + law_.name + "\": its force is not finite"));
+}
+
+std::exception_ptr guidance_error(const HapticRenderer& renderer) {
+  if (renderer.law_error()) return renderer.law_error();
+  return std::make_exception_ptr(ValueError("guidance law \"" + renderer.law().name + "\": its force is not finite"));
 }
 
 Eigen::Vector3d force_at_work(const Capabilities& device, const Eigen::Vector3d& sent) noexcept {

@@ -53,6 +53,9 @@ class SessionTick {
 /// it outputs, and of a real one the servo knows what it has written. Device axes [N].
 Eigen::Vector3d force_at_work(const Capabilities& device, const Eigen::Vector3d& sent) noexcept;
 
+/// What the guidance law of a renderer threw, or that its force is not finite.
+std::exception_ptr guidance_error(const HapticRenderer& renderer);
+
 /// An empty recording of a page written at the rate of a renderer.
 Recording recording_for(const PracticePage& page, const HapticRenderer& renderer, const RendererOptions& options,
                         const Capabilities& device, FeedbackMode mode, const ForceLaw& law);

@@ -11,6 +11,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/practice/session.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"
@@ -206,6 +207,58 @@ TEST_CASE("guidance fades with success, and comes back with failure", "[lesson]"
   pupil.write(pupil.path(2));
   CHECK(lesson.look().assistance > faded);
   CHECK(lesson.look().assistance < 1.0);
+}
+
+TEST_CASE("every tick can be made again from what came in, unless a command led the renderer", "[lesson]") {
+  LessonOptions options = options_for();
+  options.records_all = true;
+  using Kind = LessonCommandKind;
+  const auto can_be_made_again = [&](const auto& act) {
+    Lesson lesson = lesson_on("三", options);
+    Pupil pupil(lesson);
+    pupil.write(pupil.path(0));
+    pupil.write(pupil.backwards(1));
+    act(lesson, pupil);
+    pupil.write(pupil.path(1));
+    lesson.look();
+    const Recording& recording = lesson.recording();
+    if (!recording.setup) return false;
+    const Recording again = replayed(recording);
+    CHECK(std::equal(again.samples.begin(), again.samples.end(), recording.samples.begin(), recording.samples.end(),
+                     [](const RecordedSample& a, const RecordedSample& b) {
+                       return a.force == b.force && a.stroke == b.stroke && a.events == b.events;
+                     }));
+    return true;
+  };
+  const auto send = [&](Kind kind, bool is_on_paper = false) {
+    return can_be_made_again([=](Lesson& lesson, Pupil& pupil) {
+      const std::vector<Point> path = pupil.path(1);
+      const std::vector<Point> half(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(path.size() / 2));
+      if (!is_on_paper) lesson.send({kind});
+      pupil.go(half.front(), 0.005);
+      for (const Point& point : half) pupil.go(point, -0.001);
+      if (is_on_paper) lesson.send({kind});
+      pupil.go(half.back(), -0.001);
+      pupil.go(half.back(), 0.005);
+      lesson.send({Kind::resume});
+      pupil.wait(0.3);
+    });
+  };
+  CHECK(can_be_made_again([](Lesson&, Pupil&) {}));
+  CHECK(send(Kind::show));
+  CHECK(send(Kind::pause));
+  CHECK(send(Kind::ignore));
+  CHECK_FALSE(send(Kind::skip));
+  CHECK_FALSE(send(Kind::undo));
+  CHECK_FALSE(send(Kind::pause, true));
+  CHECK_FALSE(send(Kind::ignore, true));
+  CHECK(can_be_made_again([](Lesson& lesson, Pupil& pupil) {
+    lesson.send({Kind::skip});
+    lesson.again(pupil.ticks + 10);
+  }));
+  CHECK_FALSE(can_be_made_again([&](Lesson& lesson, Pupil&) { lesson.change(options); }));
+  options.renderer.guidance.assist.enabled = true;
+  CHECK_FALSE(can_be_made_again([](Lesson&, Pupil&) {}));  // guidance has come back after a refusal
 }
 
 TEST_CASE("what is judged is what was written in the end, and attempts are counted", "[lesson]") {

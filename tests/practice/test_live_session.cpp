@@ -14,6 +14,7 @@
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/score.hpp>
+#include <calligraphy/practice/session.hpp>
 #include <calligraphy/practice/writer.hpp>
 
 #include "../catch.hpp"
@@ -159,6 +160,9 @@ TEST_CASE("a page is written on a device with its own clock, and every tick is r
   const CharacterScore written = score_page(page, result.recording).front();
   CHECK(written.strokes_completed == 2);
   CHECK(written.match.remarks.empty());
+  const LessonScore judged = score_lesson(result.writing).front();
+  CHECK(judged.right_at_once == 2);
+  CHECK(judged.score.rms_error == Approx(written.rms_error).epsilon(0.02));
   CHECK(device.max_force > 0.1);
   REQUIRE(!views.empty());
   CHECK(views.back().progress == 1.0);
@@ -258,28 +262,36 @@ TEST_CASE("a pen that comes out of an inkwell behind the paper writes nothing on
   CHECK(result.recording.samples.front().device_point.z() > 0.0);
 }
 
-TEST_CASE("a display can show why the pen is not guided, and the way to the start") {
+TEST_CASE("a person is told hints and refusals, and a stroke that is not written is shown and skipped") {
   const PracticePage page = page_of("一");
   HeldDevice device(page_of("二"));  // the hand writes above and below the stroke that is due
-  std::vector<LiveView> views;
+  std::vector<LessonEvent> events;
   LiveOptions options = watched(device);
+  bool is_shown = false;
   options.watch = [&](const LiveView& view) {
-    views.push_back(view);
+    for (const LessonEvent& event : view.events) {
+      events.push_back(event);
+      is_shown = is_shown || event.kind == LessonEventKind::shown;
+      if (event.kind != LessonEventKind::hinted) continue;
+      CHECK(event.hint == WritingHint::too_far);
+      CHECK(view.lesson.hint == event.hint);
+    }
     device.seen();
-    return device.ticks() < 6'000;
+    return device.ticks() < 20'000;  // should it never end
   };
-  write_with_device(page, device, options);
-  const PlacedCharacter& one = page.characters.front();
-  const Point start = one.placement.to_page(strokes(one.character).front().control_points.front());
-  int too_far = 0;
-  for (const LiveView& view : views) {
-    if (!view.started) continue;
-    CHECK((view.newest.pen_tip.head<2>() + view.to_start - start).norm() < 1e-12);
-    if (view.newest.pen_tip.z() > 0.001) CHECK(view.hint == WritingHint::none);
-    too_far += view.hint == WritingHint::too_far;
-  }
-  CHECK(too_far > 2);
-  CHECK(views.back().newest.stroke == 0);
+  options.commands = [&] {
+    return is_shown ? std::vector{LessonCommandKind::skip} : std::vector<LessonCommandKind>();
+  };
+  const LiveResult result = write_with_device(page, device, options);
+  std::string told;
+  for (const LessonEvent& event : events) told += std::string(to_string(event.kind)) + " ";
+  CHECK(told == "restarted hinted refused hinted refused shown skipped finished ");
+  CHECK(device.ticks() < 20'000);
+  CHECK(result.writing.attempts.size() == 2);
+  CHECK(result.writing.strokes.front().fate == StrokeFate::skipped);
+  CHECK(result.writing.recording.samples.empty());
+  CHECK_FALSE(result.recording.setup);  // what came in does not tell of the skip
+  CHECK(result.recording.inputs.size() == result.recording.samples.size());
 }
 
 TEST_CASE("with vision alone no force is sent") {

@@ -275,8 +275,14 @@ void add_live(py::module_& module) {
             return py::array(dtype_of_struct<RecordedSample>(), py::array::ShapeContainer{}, &self.newest);
           },
           "+ A structured array () of sample_dtype, copied.")
-      .def_readonly("hint", &LiveView::hint)
-      .def_property_readonly("to_start", [](const LiveView& self) { return array_of(self.to_start); })
+      .def_property_readonly(
+          "hint", [](const LiveView& self) { return self.lesson.hint; },
+          "why a pen on the paper is not guided (hint_text()): the hint given last, once it has lasted, until it is out "
+          "of date")
+      .def_property_readonly(
+          "to_start",
+          [](const LiveView& self) { return array_of(Point(self.lesson.start - self.newest.pen_tip.head<2>())); },
+          "from the pen tip to the start of the stroke that is due, (2,) [m, page]")
       .def_property_readonly("servo", [](const LiveView& self) { return self.servo; })
       .def_readonly("warnings", &LiveView::warnings)
       .def_readonly("advice", &LiveView::advice)
