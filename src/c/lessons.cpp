@@ -209,7 +209,7 @@ calligraphy_status calligraphy_lesson_create_for_pointer(const calligraphy_page*
     auto made = std::make_shared<LessonObject>();
     made->device = device;
     const LessonOptions chosen = lesson_options_of(device, 1.0, options, held);
-    made->pointer.emplace(std::vector{object<PracticePage>(page)}, chosen, device);
+    made->pointer.emplace(std::vector{object<PracticePage>(page)}, device, chosen);
     hand_out(lesson, std::move(made));
   });
 }

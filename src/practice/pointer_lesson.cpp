@@ -47,7 +47,8 @@ double edge_of(const Lesson& lesson) { return lesson.page().characters.front().p
 
 }  // namespace
 
-PointerLesson::PointerLesson(std::vector<PracticePage> pages, const LessonOptions& options, const Capabilities& device)
+PointerLesson::PointerLesson(std::vector<PracticePage> pages, const Capabilities& device,
+                             const LessonOptions& options)
     : PointerLesson(of_this_hand(options, pages), std::move(pages), device) {}
 
 PointerLesson::PointerLesson(const LessonOptions& options, std::vector<PracticePage> pages, const Capabilities& device)

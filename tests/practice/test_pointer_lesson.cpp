@@ -26,7 +26,7 @@ class Hand {
     const Capabilities device = device_profile("ideal");
     options.renderer = RendererOptions::for_device(device);
     options.strength = 0.6;
-    lesson = std::make_unique<PointerLesson>(std::vector{page_of(text)}, options, device);
+    lesson = std::make_unique<PointerLesson>(std::vector{page_of(text)}, device, options);
   }
 
   std::vector<Point> path(std::size_t stroke) const {

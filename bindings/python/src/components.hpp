@@ -33,6 +33,7 @@ void add_phantom(py::module_& module);
 void add_openhaptics(py::module_& module);
 void add_render(py::module_& module);
 void add_practice(py::module_& module);
+void add_lesson(py::module_& module);
 void add_live(py::module_& module);
 void add_experiments(py::module_& module);
 /// Documentation and signatures of everything in the module.

@@ -20,6 +20,7 @@
 #include <calligraphy/judge/pen_trace.hpp>
 #include <calligraphy/model/character_text.hpp>
 #include <calligraphy/model/placed_character.hpp>
+#include <calligraphy/practice/recording.hpp>
 #include <calligraphy/render/guidance_law.hpp>
 
 #include "arrays.hpp"
@@ -170,7 +171,7 @@ class Place {
 };
 
 /// A writable field. Vectors and structs are views into the struct, which they keep alive, so that
-/// `state.position[2] = 0.1` changes it. Lists are copies, because their elements may move.
+/// `state.position[2] = 0.1` changes it. Lists, and arrays of points, are copies, because their elements may move.
 template <class Struct, class Member>
 void add_field(py::class_<Struct>& type, const Field<Struct, Member>& field) {
   const Place place(field.member);
@@ -196,6 +197,11 @@ void add_field(py::class_<Struct>& type, const Field<Struct, Member>& field) {
       auto& to = place.of<Member>(self);
       const Doubles numbers = fixed_doubles(value, name, static_cast<py::ssize_t>(to.size()));
       std::copy_n(numbers.data(), to.size(), to.begin());
+    };
+  } else if constexpr (std::is_same_v<Member, std::vector<Point>>) {
+    get = [place](const py::object& self) { return array_of_points(place.of<Member>(self)); };
+    set = [place, name](const py::object& self, const ArrayLike& value) {
+      place.of<Member>(self) = points(value, name);
     };
   } else {
     if constexpr (is_vector<Member>) {
@@ -226,6 +232,8 @@ template <>
 inline constexpr bool is_bound_by_hand<PlacedCharacter> = true;
 template <>
 inline constexpr bool is_bound_by_hand<PenTrace> = true;
+template <>
+inline constexpr bool is_bound_by_hand<Recording> = true;
 
 template <class Struct>
 py::class_<Struct> add_struct(py::module_& module);

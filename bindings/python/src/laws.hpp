@@ -125,16 +125,22 @@ class PythonGuidance final : public GuidanceLaw {
   py::object law_, force_, begin_;
 };
 
-/// Calls HapticRenderer::update(). @throws what the guidance law raised, with its traceback, or why it gave no force
-inline const HapticTick& updated(HapticRenderer& renderer, const DeviceState& state) {
-  const HapticTick& tick = renderer.update(state);
-  if (tick.status != TickStatus::bad_law || !renderer.law_error()) return tick;
+/// Raises what a law raised, with its traceback, or why it gave no force: anew, because pybind11 gives each exception
+/// back to Python only once.
+[[noreturn]] inline void raise_again(const std::exception_ptr& raised) {
   try {
-    std::rethrow_exception(renderer.law_error());
+    std::rethrow_exception(raised);
   } catch (const py::error_already_set& error) {
     const py::gil_scoped_acquire gil;
-    InStep::raise(InStep::with_traceback(error));  // anew, because pybind11 gives each back to Python only once
+    InStep::raise(InStep::with_traceback(error));
   }
+}
+
+/// Calls HapticRenderer::update(). @throws as raise_again()
+inline const HapticTick& updated(HapticRenderer& renderer, const DeviceState& state) {
+  const HapticTick& tick = renderer.update(state);
+  if (tick.status == TickStatus::bad_law && renderer.law_error()) raise_again(renderer.law_error());
+  return tick;
 }
 
 /// The law of a session, a function in Python. Unlike a PythonLaw it passes exceptions on: they end the session.

@@ -99,6 +99,7 @@ PYBIND11_MODULE(_calligraphy, module) {
 #endif
   add_render(module);
   add_practice(module);
+  add_lesson(module);
   add_live(module);
   add_experiments(module);
   finish(module);

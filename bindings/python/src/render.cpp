@@ -150,6 +150,10 @@ void add_render(py::module_& module) {
            "exception of a guidance law, call restart().")
       .def("restart", [](HapticRenderer& self) { idle(self).restart(); })
       .def("skip_stroke", [](HapticRenderer& self) { return idle(self).skip_stroke(); })
+      .def(
+          "set_due",
+          [](HapticRenderer& self, int character, int stroke) { return idle(self).set_due(character, stroke); },
+          "character"_a, "stroke"_a)
       .def_property_readonly("last", [](const HapticRenderer& self) { return idle(self).last(); })
       .def_property_readonly("options", &HapticRenderer::options, py::return_value_policy::copy)
       .def_property_readonly("law", &HapticRenderer::law, py::return_value_policy::copy)

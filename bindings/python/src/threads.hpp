@@ -18,6 +18,7 @@
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/judge/pen_trace.hpp>
 #include <calligraphy/model/character_set.hpp>
+#include <calligraphy/practice/lesson.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 
@@ -145,9 +146,9 @@ class InLaw {
 /// Stops loops that were destroyed inside their own force law, where no thread can wait for itself. Requires the GIL.
 void stop_orphans();
 
-/// During its lifetime the device and the renderer, either of which may be null, belong to a loop, to one tick of a
-/// Servo, or to one call that has released the GIL. idle() refuses any other use, which would be a data race. Requires
-/// the GIL.
+/// During its lifetime the device and the renderer or lesson, either of which may be null, belong to a loop, to one tick
+/// of a Servo, or to one call that lets other threads run. idle() refuses any other use, which would be a data race.
+/// Requires the GIL.
 class AtWork {
  public:
   enum class User { loop, tick, call };
@@ -158,17 +159,17 @@ class AtWork {
 
   /// @throws Error when one of them is already in use. A force law may call with what its own loop owns, but start no
   /// other loop on it, which would run at the same time.
-  explicit AtWork(Owner owner, const HapticDevice* device, const HapticRenderer* renderer = nullptr) {
+  explicit AtWork(Owner owner, const HapticDevice* device, const void* other = nullptr, const char* what = "renderer") {
     const bool from_law = owner.user != User::loop;
     refuse(device, "device", from_law);
-    refuse(renderer, "renderer", from_law);
+    refuse(other, what, from_law);
     // What the calling force law's loop already owns remains the loop's.
     device_ = device != nullptr && busy.emplace(device, owner).second ? device : nullptr;
-    renderer_ = renderer != nullptr && busy.emplace(renderer, owner).second ? renderer : nullptr;
+    other_ = other != nullptr && busy.emplace(other, owner).second ? other : nullptr;
   }
   ~AtWork() {
     busy.erase(device_);
-    busy.erase(renderer_);
+    busy.erase(other_);
   }
   AtWork(const AtWork&) = delete;
   AtWork& operator=(const AtWork&) = delete;
@@ -195,21 +196,21 @@ class AtWork {
   static inline std::map<const void*, Owner> busy;  ///< protected by the GIL
 
   const HapticDevice* device_;
-  const HapticRenderer* renderer_;
+  const void* other_;
 };
 
-/// The same device or renderer. @throws Error when it is in use by others
+/// The same device, renderer or loop's half of a lesson. @throws Error when it is in use by others
 template <class Thing>
 Thing& idle(Thing& thing) {
   if constexpr (std::is_base_of_v<HapticDevice, std::remove_const_t<Thing>>) {
     AtWork::refuse(static_cast<const HapticDevice*>(&thing), "device");
   } else {
-    AtWork::refuse(&thing, "renderer");
+    AtWork::refuse(&thing, std::is_same_v<std::remove_const_t<Thing>, Lesson> ? "lesson" : "renderer");
   }
   return thing;
 }
 
-/// A member function of a device or renderer that is not in use by others; returns vectors as arrays.
+/// A member function of what idle() takes; returns vectors as arrays.
 template <class Class, class Result, class... Arguments>
 auto when_idle(Result (Class::*function)(Arguments...) const) {
   return

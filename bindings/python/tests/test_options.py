@@ -303,6 +303,9 @@ def test_a_renderer_skips_strokes():
     assert renderer.skip_stroke() and not renderer.skip_stroke()
     tick = renderer.update(in_the_air)
     assert tick.character == 1 and not tick.events
+    assert renderer.set_due(0, 1) and not renderer.set_due(0, 2)
+    tick = renderer.update(in_the_air)
+    assert (tick.character, tick.stroke) == (0, 1) and not tick.events
 
 
 def test_a_renderer_reports_what_it_clipped_and_can_be_restarted():

@@ -252,6 +252,7 @@ def test_a_law_may_not_use_what_another_loop_owns(law):
             "trace": lambda: renderer.trace(np.zeros((3, 3))),
             "restart": renderer.restart,
             "skip_stroke": renderer.skip_stroke,
+            "set_due": lambda: renderer.set_due(0, 0),
             "last": lambda: renderer.last,
         }
     if law == "session":

@@ -32,6 +32,8 @@ def values(kind, name):
         return st.sampled_from(["linear", "saturating", "wang2006"])
     if type(default) in RECORDS:
         return records(type(default))
+    if type(default) is cal.Recording:
+        return NUMBERS.filter(lambda rate: 0.0 < rate < np.inf).map(lambda rate: cal.Recording(rate, []))
     if type(default) is cal.Character:
         return st.sampled_from([default, *(cal.built_in_characters()[code] for code in "永一人")])
     if hasattr(type(default), "__members__"):
@@ -72,6 +74,13 @@ LISTS = {
     (cal.CharacterScore, "strokes"): lambda: records(cal.StrokeScore),
     (cal.InkImport, "traces"): lambda: NUMBERS.map(lambda x: cal.PenTrace("一", [[[x, 0, 0]]])),
     (cal.InkImport, "notes"): lambda: st.text(max_size=5),
+    (cal.LessonRemark, "strokes"): lambda: st.integers(0, 9),
+    (cal.LessonScore, "pen_downs"): lambda: st.integers(0, 9),
+    (cal.LessonScore, "remarks"): lambda: records(cal.LessonRemark),
+    (cal.LessonView, "ink"): lambda: records(cal.LessonInk),
+    (cal.LessonView, "strokes"): lambda: records(cal.LessonStroke),
+    (cal.LessonWriting, "attempts"): lambda: records(cal.LessonEvent),
+    (cal.LessonWriting, "strokes"): lambda: records(cal.LessonStroke),
     (cal.MatchResult, "drawn"): lambda: records(cal.DrawnStroke),
     (cal.MatchResult, "remarks"): lambda: records(cal.StrokeRemark),
     (cal.StabilityMapOptions, "grips"): lambda: records(cal.GripImpedance),
@@ -371,6 +380,7 @@ def test_objects_that_own_a_device_or_a_file_cannot_be_pickled():
         cal.SimulatedDevice(profile),
         cal.Servo(cal.SimulatedDevice(profile), lambda state: (0, 0, 0)),
         cal.HapticRenderer(page.characters, cal.MotionMapping(), profile),
+        cal.Lesson([page], profile),
         cal.CharacterSet(cal.built_in_characters()),
     )):  # fmt: skip
         with pytest.raises(TypeError, match="pickle"):

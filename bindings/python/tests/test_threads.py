@@ -19,6 +19,7 @@ SHORT = cal.lay_out([CHARACTERS["一"]])[0]
 MAPPING = cal.upright_page(PAGE.width, PAGE.height)
 OPTIONS = cal.SessionOptions(device=PROFILE, renderer=cal.RendererOptions.for_device(PROFILE))
 RECORDING = cal.write_page(SHORT, OPTIONS)
+WRITING = cal.LessonWriting(page=SHORT, strokes=[cal.LessonStroke(fate="accepted", pen_down=0)], recording=RECORDING)
 CUBIC = np.array([[0.0, 0.0], [1.0, 2.0], [2.0, -1.0], [3.0, 0.5]])
 LOOP = cal.SampledLoop(device=cal.Capabilities(apparent_mass=0.045, viscous_friction=0.1, peak_force=7.9))
 LINE = np.column_stack([np.linspace(0.1, 0.9, 30), np.full(30, 0.5)])
@@ -88,6 +89,7 @@ def released(tmp_path):
         "follow_trace": lambda: cal.follow_trace(SHORT, TRACE, OPTIONS),
         "replay_page": lambda: cal.replay_page(SHORT, cal.ReplayDevice(replayed, PROFILE), OPTIONS),
         "score": lambda: cal.score_page(SHORT, RECORDING),
+        "score_lesson": lambda: cal.score_lesson(WRITING),
         "write_recording": lambda: cal.write_recording(file, RECORDING),
         "read_recording": lambda: cal.read_recording(file),
         "replayed": lambda: cal.replayed(RECORDING),

@@ -41,7 +41,8 @@ class PointerLesson {
   /// Of the options, `mapping` is that of the pages, and grip_stiffness and guidance.fade_in are those of this hand; the
   /// options of the renderer should be for `device`.
   /// @throws ValueError as Lesson
-  PointerLesson(std::vector<PracticePage> pages, const LessonOptions& options, const Capabilities& device);
+  PointerLesson(std::vector<PracticePage> pages, const Capabilities& device,
+                const LessonOptions& options = {});
 
   /// Keeps a sample until its time has come. Those whose place or time is not finite are left out.
   void move(const PointerSample& sample);
