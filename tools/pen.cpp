@@ -7,42 +7,27 @@
 #include <spdlog/spdlog.h>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/practice/hint_text.hpp>
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/recording.hpp>
 
 #include "advice_teller.hpp"
 #include "interrupt.hpp"
+#include "lesson_report.hpp"
 #include "options.hpp"
 
 namespace calligraphy::tools {
 namespace {
 
-/// Tells a person each hint once it has lasted: a moving pen passes many that it does not need to hear of.
-class HintTeller {
- public:
-  explicit HintTeller(const Language& language) : language_(language) {}
-
-  void look(const LiveView& view) {
-    const double now = view.newest.time;
-    if (view.hint != hint_) {
-      hint_ = view.hint;
-      since_ = now;
-      told_ = false;
-    }
-    if (told_ || hint_ == WritingHint::none || now - since_ < long_enough) return;
-    spdlog::info("{}", hint_text(hint_, view.to_start, language_));
-    told_ = true;
+/// What a key asks of a lesson.
+std::vector<LessonCommandKind> commands_of(const std::string& keys) {
+  std::vector<LessonCommandKind> commands;
+  for (const char key : keys) {
+    if (key == 's') commands.push_back(LessonCommandKind::skip);
+    if (key == 'u') commands.push_back(LessonCommandKind::undo);
+    if (key == 'w') commands.push_back(LessonCommandKind::show);
   }
-
- private:
-  static constexpr double long_enough = 0.3;  ///< [s]
-
-  Language language_;
-  WritingHint hint_ = WritingHint::none;
-  double since_ = 0.0;  ///< [s]
-  bool told_ = false;
-};
+  return commands;
+}
 
 }  // namespace
 
@@ -75,7 +60,7 @@ Recording Pen::write(const PracticePage& page, const SessionOptions& session) {
 Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
   DeviceFault told = DeviceFault::none;
   bool told_behind = false;
-  HintTeller hints(options_.language);
+  std::string keys;
   AdviceTeller advice;
   LiveOptions options;
   options.mode = session.mode;
@@ -98,10 +83,14 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
       const std::string distance = fmt::format("{:.0f}", 1e3 * view.behind);
       spdlog::info("{}", options_.language.text("write.behind", {{"distance", distance}}));
     }
-    hints.look(view);
-    stop_key_->look();
+    for (const LessonEvent& event : view.events) {
+      const std::string text = event_text(event, view.lesson, page, options_.language);
+      if (!text.empty()) spdlog::info("{}", text);
+    }
+    keys += stop_key_->look();
     return !interrupted();
   };
+  options.commands = [&] { return commands_of(std::exchange(keys, {})); };
   LiveResult result = write_with_device(page, *device_, options);
   if (result.dropped > 0) {
     const std::string warning = fmt::format("{} ticks are missing from a recording", result.dropped);
@@ -109,6 +98,7 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
     spdlog::warn("{}", warning);
   }
   statistics_.push_back(result.statistics);
+  lessons_.push_back(std::move(result.writing));
   return std::move(result.recording);
 }
 

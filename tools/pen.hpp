@@ -10,6 +10,7 @@
 
 #include <calligraphy/devices/servo_statistics.hpp>
 #include <calligraphy/judge/language.hpp>
+#include <calligraphy/practice/lesson_score.hpp>
 #include <calligraphy/practice/session.hpp>
 
 #include "device_choice.hpp"
@@ -42,10 +43,14 @@ class Pen {
 
   /// What stops the writing of a person, as in "space, Esc or Ctrl-C".
   std::string stop_keys() const { return tools::stop_keys(*stop_key_, options_.language); }
+  /// What else a person may press; empty where no keys are read.
+  std::string lesson_keys() const { return stop_key_->available() ? options_.language.text("write.keys") : ""; }
   /// True if Ctrl-C or the stop key was pressed since the device was opened. write() then throws an Error for a
   /// simulated writer, and returns what was written so far for a person.
   bool interrupted() const noexcept { return interrupt_->asked() || (stop_key_ && stop_key_->pressed()); }
   bool stopped_by_key() const noexcept { return interrupted() && !interrupt_->asked(); }
+  /// What a person wrote, per page; empty unless a person writes.
+  const std::vector<LessonWriting>& lessons() const noexcept { return lessons_; }
   /// Servo loop statistics per page; empty unless a person writes.
   const std::vector<ServoStatistics>& statistics() const noexcept { return statistics_; }
   /// What a person was warned of, each once.
@@ -62,6 +67,7 @@ class Pen {
   std::optional<StopKey> stop_key_;       ///< while a person writes
   std::vector<std::string> warnings_;
   std::vector<ServoStatistics> statistics_;
+  std::vector<LessonWriting> lessons_;
 };
 
 }  // namespace calligraphy::tools

@@ -127,7 +127,8 @@ void replay_recordings(const RecordingReplay& replay) {
   if (damaged > 0) throw Error(fmt::format("{} could not be read", counted(static_cast<std::size_t>(damaged), "recording")));
   if (changed > 0) {
     throw Error(fmt::format("the forces of {} are not those of the session: another version of the program wrote it, "
-                            "ticks are missing, or the file was changed", counted(static_cast<std::size_t>(changed), "recording")));
+                            "ticks are missing, strokes were skipped or taken back, or the file was changed",
+                            counted(static_cast<std::size_t>(changed), "recording")));
   }
 }
 

@@ -25,15 +25,20 @@ StopKey::~StopKey() {
   if (entry_) restore(this);
 }
 
-void StopKey::look() noexcept {
-  if (!entry_) return;
+std::string StopKey::look() {
+  std::string others;
+  if (!entry_) return others;
   pollfd terminal{STDIN_FILENO, POLLIN, 0};
   char key = 0;
   while (poll(&terminal, 1, 0) == 1 && (terminal.revents & POLLIN) != 0 && read(STDIN_FILENO, &key, 1) == 1) {
-    if (key != ' ' && key != escape) continue;
+    if (key != ' ' && key != escape) {
+      others += key;
+      continue;
+    }
     emergency_stop();
     pressed_ = true;
   }
+  return others;
 }
 
 std::string stop_keys(const StopKey& key, const Language& language) {

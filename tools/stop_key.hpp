@@ -1,7 +1,8 @@
-// Space and Esc as a force-off key.
+// Space and Esc as a force-off key, and what else is pressed.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string>
 
 #include <termios.h>
@@ -23,9 +24,9 @@ class StopKey {
 
   bool available() const noexcept { return entry_.has_value(); }
 
-  /// Takes the force from every device if space or Esc was pressed since the last call. To be called some 50 times a
-  /// second.
-  void look() noexcept;
+  /// Takes the force from every device if space or Esc was pressed since the last call, and returns the other keys that
+  /// were. To be called some 50 times a second.
+  std::string look();
   /// Whether it was ever pressed.
   bool pressed() const noexcept { return pressed_; }
 

@@ -22,6 +22,7 @@
 #include "commands.hpp"
 #include "counted.hpp"
 #include "kept_recording.hpp"
+#include "lesson_report.hpp"
 #include "options.hpp"
 #include "output_directory.hpp"
 #include "output_file.hpp"
@@ -60,6 +61,13 @@ struct WriteArguments {
   Language language;
   bool ticks = false;
   bool json = false;
+};
+
+/// A recording of which pictures are made.
+struct Drawn {
+  std::string name;
+  PageInRun where;
+  std::vector<RecordedSample> samples;  ///< unless they can be made again from what is stored
 };
 
 /// A page and the position of its characters in the text.
@@ -183,7 +191,7 @@ class WriteRun {
     std::sort(summary_.results.begin(), summary_.results.end(), order);
     summary_.interrupted = pen_.interrupted();
     summary_.warnings = pen_.warnings();
-    summary_.warnings.insert(summary_.warnings.end(), ticks_warnings_.begin(), ticks_warnings_.end());
+    summary_.warnings.insert(summary_.warnings.end(), warnings_.begin(), warnings_.end());
     if (!options_.json) report();
     if (pen_.is_person()) out.write("servo.json", json(pen_.statistics()));
     out.write("strokes.csv", strokes_table(summary_.results));
@@ -264,10 +272,11 @@ class WriteRun {
     if (pen_.is_person()) {
       const Language& language = options_.language;
       const char* const mode = session_.mode == FeedbackMode::vision ? "mode.vision_only" : "mode.with_force";
-      spdlog::info("{}", language.text("write.hold_pen", {{"page", std::to_string(number + 1)},
-                                                          {"pages", std::to_string(sheets_.size())},
-                                                          {"mode", language.text(mode)},
-                                                          {"keys", pen_.stop_keys()}}));
+      const std::string hold_pen = language.text("write.hold_pen", {{"page", std::to_string(number + 1)},
+                                                                    {"pages", std::to_string(sheets_.size())},
+                                                                    {"mode", language.text(mode)},
+                                                                    {"keys", pen_.stop_keys()}});
+      spdlog::info("{}{}", hold_pen, pen_.lesson_keys());
     }
     const std::string name = fmt::format("page-{}-{}-{}", number + 1, to_string(session_.mode), repetition);
     KeptRecording kept(out, name);
@@ -277,7 +286,7 @@ class WriteRun {
       if (is_kept) kept.take(recording);
     };
     const PageInRun where = {static_cast<int>(number) + 1, sheet.first_position, repetition, session_.seed};
-    const Recording recording = [&] {
+    Recording recording = [&] {
       try {
         return pen_.write(sheet.page, session_);
       } catch (const Error&) {
@@ -285,14 +294,22 @@ class WriteRun {
         throw;
       }
     }();
+    const bool can_be_made_again = recording.setup.has_value();
+    if (!can_be_made_again) {
+      recording.setup = {sheet.page, *session_.mapping, session_.device, session_.renderer, session_.mode};
+      warnings_.push_back(kept.name() + ": strokes were skipped or taken back: its forces cannot be made again");
+      spdlog::warn("{}", warnings_.back());
+    }
     if (is_kept) {
       kept.finish();
       if (options_.ticks) {
-        try_to_write(name + "-ticks.csv", [&] { return ticks_table(recording); }, out, ticks_warnings_);
+        try_to_write(name + "-ticks.csv", [&] { return ticks_table(recording); }, out, warnings_);
       }
-      if (repetition == 1) drawn_.push_back({kept.name(), where});
     }
     for (Result& result : results_of(recording, where)) summary_.results.push_back(std::move(result));
+    if (!is_kept || repetition != 1) return;
+    drawn_.push_back({kept.name(), where, {}});
+    if (!can_be_made_again) drawn_.back().samples = std::move(recording.samples);
   }
 
   /// Pictures come last: what was written is safe by then. Their forces are made again from what is stored.
@@ -305,16 +322,18 @@ class WriteRun {
       for (const PlacedCharacter& placed : sheet.page.characters) characters.push_back(placed.character);
     }
     warn_of_missing_font(characters, options_.language);
-    for (const auto& [name, where] : drawn_) {
-      draw_page(open_recording(out.reserve(name)).recording, where, options, out, summary_.warnings);
+    for (auto& [name, where, samples] : drawn_) {
+      Recording recording = open_recording(out.reserve(name)).recording;
+      if (!samples.empty()) recording.samples = std::move(samples);
+      draw_page(recording, where, options, out, summary_.warnings);
     }
     draw_errors(summary_.results, session_.device.model, options, out, summary_.warnings);
   }
 
   void report() const {
     const Language& language = options_.language;
-    fmt::print(output(), "{}{}{}", table(summary_, language), reductions(summary_.results, language),
-               remarks(summary_, language));
+    fmt::print(output(), "{}{}{}{}", table(summary_, language), reductions(summary_.results, language),
+               remarks(summary_, language), lines(pen_.lessons(), language));
     for (const ServoStatistics& statistics : pen_.statistics()) fmt::print(output(), "{}", lines(statistics));
     std::fflush(output());  // pictures take a while
   }
@@ -333,8 +352,8 @@ class WriteRun {
   std::vector<FeedbackMode> modes_;
   std::vector<Sheet> sheets_;
   Summary summary_;
-  std::vector<std::string> ticks_warnings_;
-  std::vector<std::pair<std::string, PageInRun>> drawn_;  ///< recordings of which pictures are made
+  std::vector<std::string> warnings_;
+  std::vector<Drawn> drawn_;
 };
 
 }  // namespace

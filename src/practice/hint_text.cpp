@@ -8,9 +8,7 @@
 #include <string_view>
 
 namespace calligraphy {
-namespace {
 
-/// "12 mm to the upper left", by the nearest of eight directions.
 std::string way_text(const Point& way, const Language& language) {
   constexpr std::array<std::string_view, 8> keys = {
       "towards.right", "towards.top_right",   "towards.top",    "towards.top_left",
@@ -20,8 +18,6 @@ std::string way_text(const Point& way, const Language& language) {
   const long millimetres = std::max(1L, std::lround(std::min(1000.0 * way.norm(), 1e9)));
   return language.text(keys[direction], {{"distance", std::to_string(millimetres)}});
 }
-
-}  // namespace
 
 std::string hint_text(WritingHint hint, const Point& to_start, const Language& language) {
   const std::string key = std::string("hint.") + to_string(hint);

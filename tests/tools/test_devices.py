@@ -133,6 +133,15 @@ class Devices(ProgramTest):
                 self.assertEqual(during[3] & (termios.ICANON | termios.ECHO), 0)
                 self.assertEqual(after, before)
 
+    def test_a_key_skips_a_stroke_and_the_run_says_so(self):
+        code, told, _ = self.on_emulated_phantom_in_terminal(
+            "write", "一", "--device", "phantom", "--out", "out", "--timeout", "30", hand=["--write", "一"],
+            once="; s skips a stroke", key=b"us")
+        self.assertEqual(code, 0, told)
+        self.assertIn("there is no stroke for that\n", told)
+        self.assertIn("Stroke 1 was skipped.\n", told)
+        self.assertIn("skipped or taken back", "".join(self.record()["warnings"]))
+
     def test_a_terminal_is_restored_when_the_program_crashes(self):
         code, told, (before, during, after) = self.on_emulated_phantom_in_terminal(
             "write", "永", "--device", "phantom", "--out", "out", once="space, Esc or Ctrl-C",
@@ -161,6 +170,8 @@ class Devices(ProgramTest):
         done = self.run_program("write", "一", "--device", "openhaptics", "--out", "out", "--timeout", "6",
                                 environment={"CALLIGRAPHY_LIBHD": library, "STAND_IN_TEXT": "二"})
         told = re.findall(r"too far from the start: \d+ mm (.+)\n", done.stderr)
+        if told:
+            self.assertIn("一, stroke 1 (héng): too far from the start\n", done.stderr)
         if "force ramped down to zero" not in done.stderr.partition("straight up")[0]:
             self.assertEqual(len(told), 2, done.stderr)  # once per pen-down
         self.assertIn(told[0], ("to the lower left", "to the left"))

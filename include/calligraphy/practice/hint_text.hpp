@@ -12,4 +12,7 @@ namespace calligraphy {
 /// from the start: 12 mm to the upper left", "at the stroke's end: the start is 30 mm to the left". Empty for `none`.
 std::string hint_text(WritingHint hint, const Point& to_start, const Language& language = {});
 
+/// A way on the page in words, by the nearest of eight directions [m; y up]: "12 mm to the upper left".
+std::string way_text(const Point& way, const Language& language = {});
+
 }  // namespace calligraphy
