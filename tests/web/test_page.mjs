@@ -345,7 +345,7 @@ testPage("what a pen did is saved as it came, and is written again once it is op
     await isWritten(tab);
     const result = await tab.result(), guided = await tab.countPixels("ink");
     await tab.choose("ink", "own");
-    return { result, guided, own: await tab.fingerprint("ink") };
+    return { result, guided, own: await tab.countPixels("ink") };
   };
   const there = await written(tab), { name, bytes } = await tab.save(), text = gunzipSync(bytes).toString();
   assert.match(name, /^二-1970-01-01T\d\d-\d\d\.pens\.gz$/);
@@ -359,13 +359,15 @@ testPage("what a pen did is saved as it came, and is written again once it is op
     await other.choose("modes", "watch");  // in which nothing is written
     await other.openFile(name, bytes);
     const again = await written(other);
-    assert.deepEqual({ ...again, guided: 0 }, { ...there, guided: 0 });
-    // A sample may be taken a tick earlier than it was.
-    assert.ok(Math.abs(again.guided / there.guided - 1) < 0.005, `${again.guided} and ${there.guided} pixels`);
+    assert.deepEqual(again.result, there.result);
+    for (const ink of ["guided", "own"]) {  // a sample may be taken a tick earlier than it was
+      assert.ok(Math.abs(again[ink] / there[ink] - 1) < 0.005, `${again[ink]} and ${there[ink]} pixels`);
+    }
     assert.equal(gunzipSync((await other.save()).bytes).toString(), text, "saved again, it is the same file");
     await other.openFile("without.txt", text.replace("F pressure ", "F force "));
     await isWritten(other);
-    assert.notEqual(await other.fingerprint("ink"), there.own, "the ink is as wide as it was pressed");
+    const unpressed = await other.countPixels("ink");
+    assert.ok(Math.abs(unpressed / there.own - 1) > 0.02, `${unpressed} pixels: the ink is as wide as it was pressed`);
     isQuiet(other, server.origin);
   } finally {
     await other.close();
@@ -499,7 +501,7 @@ testPage("a stroke that was missed twice is shown, and can be skipped", {}, asyn
   await tab.writeAll(yong.slice(1));
   assert.equal(await progress(tab), "4 of 5 strokes written");
   const { remarks } = await tab.result();
-  assert.ok(remarks.some((remark) => /Stroke 1 .*is missing/.test(remark)), remarks.join("; "));
+  assert.match(remarks[0], /^Stroke 1 was skipped/);
 });
 
 testPage("each mode shows as much of the template as it says", {}, async (tab) => {

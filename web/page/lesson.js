@@ -48,7 +48,7 @@ export class Lesson {
    * @param {Settings} settings
    * @param {import("./paper.js").Paper} paper
    * @param {import("./pointer.js").Pointer} pointer
-   * @param {{hint(text: string, x: number, y: number): void, changed(lesson: Lesson): void,
+   * @param {{hint(text: string, x: number, y: number): void, changed(lesson: Lesson, isNew?: boolean): void,
    *          written(lesson: Lesson): void}} display what else shows how it goes
    */
   constructor(library, set, character, settings, paper, pointer, display) {
@@ -200,7 +200,8 @@ export class Lesson {
     if (view.hint === constants.HINT_NONE && view.reason === constants.REFUSAL_NONE) display.hint("", 0, 0);
     this.ink.length = view.ink_count;
     for (let i = 0; i < view.ink_count; ++i) (this.ink[i] ??= new Ink()).take(desk, i, this.paper.pixel);
-    if (events.length > 0 || hadPenDown !== this.trace.hasPenDown) display.changed(this);
+    const isNew = events.every(({ kind }) => kind === constants.LESSON_RESTARTED);
+    if (events.length > 0 || hadPenDown !== this.trace.hasPenDown) display.changed(this, isNew);
     if (events.some(({ kind }) => kind === constants.LESSON_FINISHED) && this.settings.mode !== "watch") {
       display.written(this);
     }

@@ -52,6 +52,7 @@ async function main() {
   const pointer = new Pointer(paperElement, paper, () => lesson.wake());
   let settings = /** @type {import("./lesson.js").Settings} */ (
     { mode: "guided", strength: 0.6, tolerance: constants.TOLERANCE_LENIENT, ink: "guided" });
+  let note = "";  // that is shown until something is done
   let task = 0;  // number of the last one that the worker was given
   let lesson = /** @type {Lesson} */ (/** @type {unknown} */ (undefined));  // begun below
 
@@ -72,11 +73,12 @@ async function main() {
   }
 
   /** @param {Lesson} lesson */
-  function showProgress({ view, due, isWritten, isGuided, mode, settings, trace }) {
+  function showProgress({ view, due, isWritten, isGuided, mode, settings, trace }, isNew = false) {
     const isWatched = settings.mode === "watch", count = view.stroke_count;
-    find("progress").textContent = isWatched ? `${count} strokes`
+    if (!isNew) note = "";
+    find("progress").textContent = note || (isWatched ? `${count} strokes`
       : !isWritten ? `Stroke ${Math.min(view.due + 1, count)} of ${count}`
-      : view.skipped > 0 ? `${view.accepted} of ${count} strokes written` : "Written";
+      : view.skipped > 0 ? `${view.accepted} of ${count} strokes written` : "Written");
     if (isWritten && document.activeElement === find("skip")) find("next").focus();
     input("skip").disabled = isWritten || isWatched;
     input("save").disabled = !trace.hasPenDown;
@@ -182,14 +184,15 @@ async function main() {
   }
 
   function beginAsked() {
-    const { character, note } = readCharacter(library, opened, asked());
+    const { character, note: said } = readCharacter(library, opened, asked());
     const isOffered = characters.includes(character);
     if (isOffered || !isKnown(character) || !begin(character)) beginFrom(Math.max(0, characters.indexOf(character)));
     if (character && character !== lesson.character) {
-      find("progress").textContent = `${character} is not among the ${characters.length} characters`;
-    } else if (note) {
-      find("progress").textContent = note;
+      note = `${character} is not among the ${characters.length} characters`;
+    } else {
+      note = said;
     }
+    showProgress(lesson, true);
   }
 
   offer("modes", Object.fromEntries(Object.entries(modes).map(([mode, { name }]) => [mode, name])), "guided",
