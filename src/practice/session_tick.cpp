@@ -5,7 +5,6 @@
 #include <limits>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/render/option_values.hpp>
 
 #include "base/monotonic_clock.hpp"
 #include "collision/length.hpp"
@@ -82,9 +81,9 @@ Recording recording_for(const PracticePage& page, const HapticRenderer& renderer
   recording.rate = renderer.options().servo_rate;
   recording.page = page_id(page);
   recording.law = mode == FeedbackMode::vision ? "none" : law ? law.name : renderer.law().name;
-  const std::vector<OptionValue> values = option_values(options);
-  const OptionValue own_guidance = {"guidance.force", "own"};
-  const bool has_own_law = law || std::find(values.begin(), values.end(), own_guidance) != values.end();
+  const auto& force = options.guidance.force;
+  const bool is_ours = force.is(linear_guidance) || force.is(saturating_guidance) || force.is(printed_guidance);
+  const bool has_own_law = law || !is_ours;
   recording.setup = {page, renderer.mapping(), device, options, mode, has_own_law};
   return recording;
 }
