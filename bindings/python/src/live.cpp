@@ -277,8 +277,7 @@ void add_live(py::module_& module) {
           "+ A structured array () of sample_dtype, copied.")
       .def_property_readonly(
           "hint", [](const LiveView& self) { return self.lesson.hint; },
-          "why a pen on the paper is not guided (hint_text()): the hint given last, once it has lasted, until it is out "
-          "of date")
+          "why a pen on the paper is not guided (hint_text()): the hint that was given last, until it is out of date")
       .def_property_readonly(
           "to_start",
           [](const LiveView& self) { return array_of(Point(self.lesson.start - self.newest.pen_tip.head<2>())); },

@@ -74,7 +74,7 @@ class Lesson {
   const LessonView& look();
   /// Takes the next event; false if there is none. At most 1,024 wait.
   bool take_event(LessonEvent& event) noexcept;
-  /// Of this page, up to the last look(): every tick, or those on the paper. One of every tick loses its set-up once its
+  /// Of this page, up to the last look(): every tick, or those on the paper. One of every tick loses its set-up once the
   /// ticks cannot be made again from what came in: after a skip, an undo, a pause or an ignore while the pen is down, a
   /// change of options, and, where guidance fades, a refusal.
   const Recording& recording() const noexcept;
