@@ -20,9 +20,9 @@ LessonOptions lesson_options_of(const Capabilities& device, double scale, const 
   if (!held) return result;
   const calligraphy_lesson_options given = read_struct(held, "calligraphy_lesson_options");
   result.mode = enumeration("mode", given.mode, LessonMode::watch);
-  result.misses_until_shown = given.misses_until_shown;
-  if (!given.own_guidance) result.strength = given.strength;
-  result.hint_time = given.hint_time;
+  if (given.misses_until_shown != 0) result.misses_until_shown = std::max(0, given.misses_until_shown);
+  if (given.has_strength) result.strength = given.strength;
+  set_if_given(result.hint_time, given.hint_time, "hint_time", "s");
   return result;
 }
 

@@ -1,9 +1,11 @@
 #include <calligraphy/practice/lesson.hpp>
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <utility>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/latest_value.hpp>
 #include <calligraphy/devices/sample_queue.hpp>
 #include <calligraphy/practice/score.hpp>
@@ -26,10 +28,11 @@ struct Lesson::Loop {
         samples(capacity),
         ticks(records_every_tick ? capacity : 1),
         machine(scene, events),
-        wanted(&scene),
+        scenes(max_commands),
         records_all(records_every_tick) {}
 
-  void obey() noexcept;
+  void obey(const DeviceState& sample) noexcept;
+  bool is_off_paper(const DeviceState& sample) const noexcept;
   void take(LessonCommandKind command) noexcept;
   void record(const HapticTick& tick, const DeviceState& input, const LessonHand* hand) noexcept;
 
@@ -39,27 +42,44 @@ struct Lesson::Loop {
   SampleQueue<RecordedTick> ticks;  ///< the same, if all are recorded
   LatestValue<LessonState> states;
   LessonMachine machine;
-  std::atomic<LessonScene*> wanted;
+  SampleQueue<LessonScene*> scenes;
+  LessonScene* wanted = nullptr;  ///< that is entered next; null: none
   bool records_all;
   bool can_be_made_again = true;  ///< the ticks of the page so far, by a renderer that knows nothing of the lesson
-  bool has_next = false;  ///< the next command
-  LessonCommand next;
+  std::array<LessonCommand, max_commands> waiting;  ///< for their ticks, in the order in which they were sent
+  std::size_t waiting_count = 0;
 };
 
 /// Carries out the commands that are due, and goes over to another scene.
-void Lesson::Loop::obey() noexcept {
+void Lesson::Loop::obey(const DeviceState& sample) noexcept {
   const std::uint64_t tick = machine.state().tick;
-  LessonScene* const scene = wanted.load(std::memory_order_acquire);
-  if (scene != &machine.scene() && scene->tick <= tick && machine.can_enter(*scene)) [[unlikely]] {
-    const bool begins = scene->start != machine.scene().start;
-    can_be_made_again = begins && !scene->wanted.guidance.assist.enabled;  // what it has faded to is kept
-    machine.enter(*scene);
+  while ((!wanted || wanted->tick <= tick) && scenes.pop(wanted)) {  // of several that are due, the last is entered
   }
-  if (!has_next) has_next = commands.pop(next);
-  while (has_next && next.tick <= tick) [[unlikely]] {
-    take(next.kind);
-    has_next = commands.pop(next);
+  if (wanted && wanted->tick <= tick && is_off_paper(sample) && machine.can_enter(*wanted)) [[unlikely]] {
+    const bool begins = wanted->start != machine.scene().start;
+    can_be_made_again = begins && !wanted->wanted.guidance.assist.enabled;  // what it has faded to is kept
+    machine.enter(*wanted);
+    wanted = nullptr;
   }
+  if (machine.is_resume_asked() && is_off_paper(sample)) [[unlikely]] machine.resume();
+  while (waiting_count < waiting.size() && commands.pop(waiting[waiting_count])) ++waiting_count;
+  if (waiting_count == 0) [[likely]] return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < waiting_count; ++i) {
+    if (waiting[i].tick <= tick) {
+      take(waiting[i].kind);
+    } else {
+      waiting[kept++] = waiting[i];
+    }
+  }
+  waiting_count = kept;
+}
+
+/// Whether no force acts on the pen, and none would at once if a renderer saw it for the first time.
+bool Lesson::Loop::is_off_paper(const DeviceState& sample) const noexcept {
+  const HapticRenderer& renderer = machine.scene().renderer;
+  if (!machine.sees_pen()) return renderer.mapping().to_page(sample.position).z() > 0.0;
+  return !machine.state().is_on_paper && renderer.last().force == Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
 /// Carries out a command: one that tells the renderer which stroke is due, or will when the pen is lifted, is not in
@@ -103,7 +123,7 @@ Lesson::~Lesson() = default;
 const HapticTick& Lesson::update(const DeviceState& sample, const LessonHand* hand) noexcept {
   Loop& loop = *loop_;
   LessonMachine& machine = loop.machine;
-  loop.obey();
+  loop.obey(sample);
   LessonScene& scene = machine.scene();
   const DeviceState* seen = &sample;
   DeviceState silent;
@@ -127,10 +147,10 @@ const Eigen::Vector3d& Lesson::force() const noexcept {
   return scene.is_plain ? scene.renderer.last().force : scene.session.force();
 }
 void Lesson::ignore() noexcept { loop_->take(LessonCommandKind::ignore); }
+bool Lesson::sees_pen() const noexcept { return loop_->machine.sees_pen(); }
 bool Lesson::is_waiting() const noexcept { return loop_->machine.is_waiting(); }
 bool Lesson::has_commands() const noexcept {
-  return loop_->has_next || !loop_->commands.is_empty() ||
-         loop_->wanted.load(std::memory_order_relaxed) != &loop_->machine.scene();
+  return loop_->waiting_count > 0 || loop_->wanted || !loop_->commands.is_empty() || !loop_->scenes.is_empty();
 }
 std::exception_ptr Lesson::law_error() const {
   const LessonScene& scene = loop_->machine.scene();
@@ -140,17 +160,21 @@ std::exception_ptr Lesson::law_error() const {
 
 bool Lesson::send(const LessonCommand& command) noexcept { return loop_->commands.push(command); }
 
+void Lesson::post(LessonScene& scene) {
+  if (!loop_->scenes.push(&scene)) throw Error("lesson: 64 changes wait already");
+}
+
 void Lesson::again(std::uint64_t tick) {
-  loop_->wanted = &desk_->make(desk_->pages(), desk_->page_index(), desk_->options(), true, tick);
+  post(desk_->make(desk_->pages(), desk_->page_index(), desk_->options(), true, tick));
 }
 
 void Lesson::next(std::uint64_t tick) {
   const std::size_t index = (desk_->page_index() + 1) % desk_->pages().size();
-  loop_->wanted = &desk_->make(desk_->pages(), index, desk_->options(), true, tick);
+  post(desk_->make(desk_->pages(), index, desk_->options(), true, tick));
 }
 
 void Lesson::begin(std::vector<PracticePage> pages, std::uint64_t tick) {
-  loop_->wanted = &desk_->make(std::move(pages), 0, desk_->options(), true, tick);
+  post(desk_->make(std::move(pages), 0, desk_->options(), true, tick));
 }
 
 void Lesson::change(const LessonOptions& options, std::uint64_t tick) {
@@ -159,10 +183,12 @@ void Lesson::change(const LessonOptions& options, std::uint64_t tick) {
   changed.mapping = before.mapping;
   changed.records_all = before.records_all;
   changed.max_absence = before.max_absence;
-  loop_->wanted = &desk_->make(desk_->pages(), desk_->page_index(), changed, options.mode != before.mode, tick);
+  post(desk_->make(desk_->pages(), desk_->page_index(), changed, options.mode != before.mode, tick));
 }
 
 const LessonView& Lesson::look() {
+  LessonState state;
+  const bool is_newer = loop_->states.take(state);  // first: what it says has happened is in the queues
   LessonSample sample;
   RecordedTick tick;
   // A sample is pushed before its tick, and is taken after it: so neither queue is full before the other.
@@ -173,8 +199,7 @@ const LessonView& Lesson::look() {
   }
   LessonEvent event;
   while (loop_->events.pop(event)) desk_->take(event);
-  LessonState state;
-  if (loop_->states.take(state)) desk_->take(state);
+  if (is_newer) desk_->take(state);
   return desk_->view(loop_->samples.dropped(), loop_->events.dropped());
 }
 

@@ -37,7 +37,10 @@ LessonScene& LessonDesk::make(std::vector<PracticePage> pages, std::size_t index
     const LessonScene& last = newest();
     scene->number = last.number + 1;
     scene->start = begins ? scene->number : last.start;
-    if (!begins) scene->progress = last.progress;
+    if (!begins) {
+      scene->progress = last.progress;
+      scene->tick = std::max(tick, last.tick);  // should the page not have begun yet
+    }
   }
   scenes_.push_back(std::move(scene));
   pages_ = std::move(pages);
@@ -206,18 +209,26 @@ LessonWriting LessonDesk::writing() const {
       if (ink.pen_down != stroke.pen_down || ink.pen_down == pen_down) continue;
       for (std::size_t k = ink.begin; k < ink.end; ++k) {
         recording.samples.push_back(recording_.samples[k]);
-        recording.samples.back().events = TickEvent::none;
+        RecordedSample& sample = recording.samples.back();
+        sample.events = TickEvent::none;
         if (!has_hand) continue;
         writing.hands.push_back(hands_[k].place);
-        if (std::isfinite(hands_[k].time)) recording.samples.back().time = hands_[k].time;
+        if (std::isfinite(hands_[k].time)) sample.time = hands_[k].time;
       }
     }
-    if (recording.samples.empty()) continue;  // its ink was lost
+    const bool has_ink = stroke.pen_down == pen_down || recording.samples.size() > before;
+    if (!has_ink) {  // it was lost
+      writing.strokes[i].pen_down = -1;
+      continue;
+    }
     if (before > 0 && before < recording.samples.size()) {
       const double last = recording.samples[before - 1].time, first = recording.samples[before].time;
       added = std::max(added, last + shortest_lift - first);
     }
-    for (std::size_t k = before; k < recording.samples.size(); ++k) recording.samples[k].time += added;
+    for (std::size_t k = before; k < recording.samples.size(); ++k) {  // a clock may have gone back
+      double& time = recording.samples[k].time;
+      time = std::max(time + added, k > 0 ? recording.samples[k - 1].time : time + added);
+    }
     pen_down = stroke.pen_down;
     RecordedSample lift = recording.samples.back();
     lift.state = InteractionState::separation;
@@ -249,7 +260,7 @@ void LessonDesk::view_ink() {
     ink.is_doubted = is_undecided && state_.is_doubted;
     if (is_accepted) {
       ink.fate = StrokeFate::accepted;
-    } else if (is_undecided || ink.pen_down == state_.pen_down) {
+    } else if (is_undecided || ink.pen_down == state_.pen_down || ink.pen_down >= state_.pen_downs) {
       ink.fate = StrokeFate::open;
     } else {
       const bool is_refused = last == attempts_.rend() || last->kind == LessonEventKind::refused;

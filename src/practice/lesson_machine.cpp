@@ -17,7 +17,8 @@ constexpr double longest_tail = 0.12;
 /// A pen-down that comes within max_bounce of a lift, is so short, and begins no stroke is a bounce [em].
 constexpr double bounce_length = 0.05;
 
-/// A stroke that was begun was followed if it was left this near to its end, or after so much of its length [em, 1].
+/// A stroke that was begun is whole if it was left this near to its end, or after so much of its length, and the pen
+/// was along it if it covered that share of its own way [em, 1].
 constexpr double near_end = 0.2, long_enough = 0.8;
 
 /// Within this time the last stroke of a page is decided, and the hint about another one is given [s].
@@ -102,14 +103,16 @@ LessonMachine::LessonMachine(LessonScene& scene, SampleQueue<LessonEvent>& event
   if (scene.options.mode == LessonMode::watch) state_.demonstrated = 0;
 }
 
-/// What is being written is not disturbed.
+/// What was written is not disturbed.
 bool LessonMachine::can_enter(const LessonScene& next) const noexcept {
-  return !state_.is_on_paper && (next.start != scene_->start || state_.undecided < 0);
+  return next.start != scene_->start || state_.undecided < 0;
 }
 
 void LessonMachine::enter(LessonScene& next) noexcept {
   has_changed_ = true;
   const bool goes_on = next.start == scene_->start;
+  state_.pen_down = -1;  // of a pen that was not seen
+  state_.is_on_paper = false;
   next.renderer.set_assistance(state_.assistance);
   scene_ = &next;
   state_.scene = next.number;
@@ -130,6 +133,7 @@ void LessonMachine::enter(LessonScene& next) noexcept {
 }
 
 bool LessonMachine::is_waiting() const noexcept {
+  if (state_.is_paused) return false;
   return state_.demonstrated >= 0 || (state_.undecided >= 0 && state_.time - last_lift_ < longest_doubt);
 }
 
@@ -152,10 +156,11 @@ void LessonMachine::take(LessonCommandKind command) noexcept {
       return show();
     case LessonCommandKind::pause:
       state_.is_paused = true;
+      is_resume_asked_ = false;
       if (state_.pen_down >= 0) current_.is_ignored = true;
       return;
     case LessonCommandKind::resume:
-      state_.is_paused = false;
+      is_resume_asked_ = state_.is_paused;
       return;
     case LessonCommandKind::ignore:
       if (state_.pen_down >= 0) current_.is_ignored = true;
@@ -165,6 +170,8 @@ void LessonMachine::take(LessonCommandKind command) noexcept {
 
 void LessonMachine::update(const HapticTick& tick) noexcept {
   state_.tick += 1;
+  // It stands still in a pause, and a clock may go back.
+  if (state_.is_paused || tick.time < state_.time) state_.demonstrated_since += tick.time - state_.time;
   state_.time = tick.time;
   state_.pen_tip = tick.pen_tip.head<2>();
   if (tick.status == TickStatus::bad_law || scene_->session.has_failed()) [[unlikely]] state_.has_failed = true;
@@ -194,10 +201,16 @@ void LessonMachine::update(const HapticTick& tick) noexcept {
   PenDown& judged = is_late ? undecided_ : current_;
   if (has_event(tick.events, TickEvent::stroke_finished)) {
     judged.finish = state_.pen_tip;
-    accept(judged);
+    if (judged.is_ignored) {
+      judged.has_begun = false;
+      forget_attempt();
+    } else {
+      accept(judged);
+    }
   } else if (has_event(tick.events, TickEvent::stroke_abandoned)) {
     judged.is_broken = true;
     judged.has_begun = false;
+    if (!is_late) judged.covered = tick.covered;
   }
   if (is_late) {
     state_.undecided = -1;
@@ -214,7 +227,7 @@ void LessonMachine::update(const HapticTick& tick) noexcept {
 
 void LessonMachine::put_down(const HapticTick& tick) noexcept {
   current_ = {};
-  current_.number = state_.pen_down = pen_downs_++;
+  current_.number = state_.pen_down = state_.pen_downs++;
   current_.begin = tick.time;
   current_.place = state_.pen_tip;
   state_.is_on_paper = true;
@@ -225,6 +238,7 @@ void LessonMachine::put_down(const HapticTick& tick) noexcept {
 
 void LessonMachine::lift(const HapticTick& tick) noexcept {
   current_.place = state_.pen_tip;
+  current_.covered = tick.covered;
   state_.is_on_paper = false;
   state_.pen_down = -1;
   const bool wrote_nothing = !current_.has_begun && !current_.is_finished && !current_.is_broken;
@@ -274,6 +288,7 @@ void LessonMachine::settle(const PenDown& pen_down) noexcept {
 }
 
 void LessonMachine::refuse(const PenDown& pen_down) noexcept {
+  if (skip_asked_ == state_.due) return add(LessonEventKind::ignored, state_.due, pen_down.number);
   const int misses = progress(state_.due).misses.fetch_add(1, std::memory_order_relaxed) + 1;
   const RefusalReason reason = why_refused(pen_down);
   if (state_.pen_down < 0) {  // otherwise the stroke is being written again
@@ -295,8 +310,9 @@ RefusalReason LessonMachine::why_refused(const PenDown& pen_down) const noexcept
   const StrokeOnPage& due = stroke(state_.due);
   const double to_start = (pen_down.place - due.start).norm(), to_end = (pen_down.place - due.end).norm();
   if (pen_down.is_broken) {
-    const bool was_followed = to_end < near_end * due.em || pen_down.length > long_enough * due.length;
-    return was_followed ? RefusalReason::not_along : RefusalReason::lifted_early;
+    const bool is_along = pen_down.covered > long_enough * std::min(1.0, pen_down.length / due.length);
+    const bool is_whole = to_end < near_end * due.em || pen_down.length > long_enough * due.length;
+    return is_whole && !is_along ? RefusalReason::not_along : RefusalReason::lifted_early;
   }
   if (pen_down.hint == WritingHint::at_end && to_start < to_end) return RefusalReason::backwards;
   return reason_of(pen_down.hint);
@@ -305,15 +321,27 @@ RefusalReason LessonMachine::why_refused(const PenDown& pen_down) const noexcept
 void LessonMachine::skip() noexcept {
   if (state_.due != skip_asked_ || !set_due(state_.due + 1)) return;
   if (state_.pen_down >= 0) current_.is_ignored = true;
-  state_.undecided = -1;
-  state_.is_doubted = false;
+  drop_undecided();
   progress(state_.due).written_by.store(LessonProgress::is_skipped, std::memory_order_relaxed);
   add(LessonEventKind::skipped, state_.due, -1);
   go_to_next();
   if (state_.due == count() && state_.pen_down < 0) finish();
 }
 
+/// What was left in doubt is no writing.
+void LessonMachine::drop_undecided() noexcept {
+  if (state_.undecided >= 0) add(LessonEventKind::ignored, state_.due, state_.undecided);
+  state_.undecided = -1;
+  state_.is_doubted = false;
+}
+
 void LessonMachine::undo() noexcept {
+  if (state_.undecided >= 0) {  // the last stroke is the one in doubt
+    if (!set_due(state_.due)) return;
+    undo_asked_ = false;
+    clear_hint();
+    return drop_undecided();
+  }
   if (state_.due == 0) {
     undo_asked_ = false;
     return add(LessonEventKind::declined, 0, -1);
@@ -321,9 +349,7 @@ void LessonMachine::undo() noexcept {
   if (!set_due(state_.due - 1)) return;
   undo_asked_ = false;
   if (state_.pen_down >= 0) current_.is_ignored = true;
-  if (state_.undecided >= 0) add(LessonEventKind::ignored, state_.due, state_.undecided);
-  state_.undecided = -1;
-  state_.is_doubted = state_.is_finished = state_.is_stroke_shown = false;
+  state_.is_finished = state_.is_stroke_shown = false;
   state_.demonstrated = skip_asked_ = -1;
   clear_hint();
   state_.due -= 1;
@@ -370,7 +396,7 @@ void LessonMachine::show() noexcept {
   if (is_hint_given_ || tick.time - hint_since_ < scene_->options.hint_time) return;
   is_hint_given_ = true;
   // Of a later one that was refused since, the reason is told.
-  if (is_doubt && (state_.undecided < 0 || state_.undecided + 1 < pen_downs_)) return;
+  if (is_doubt && (state_.undecided < 0 || state_.undecided + 1 < state_.pen_downs)) return;
   has_changed_ = true;
   clear_hint();
   state_.hint = hint;
@@ -401,6 +427,7 @@ void LessonMachine::add(LessonEventKind kind, int index, int pen_down) noexcept 
 
 void LessonMachine::add(LessonEventKind kind, int index, int pen_down, RefusalReason reason,
                         const Point& place) noexcept {
+  has_changed_ = true;
   const StrokeOnPage& concerned = stroke(std::min(index, count() - 1));
   LessonEvent event;
   event.tick = state_.tick > 0 ? state_.tick - 1 : 0;

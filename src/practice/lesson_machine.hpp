@@ -77,6 +77,7 @@ struct LessonState {
   bool is_on_paper = false;
   bool is_stroke_done = false;      ///< the pen-down that goes on has written its stroke
   bool is_stroke_shown = false;     ///< the stroke that is due, whatever the mode
+  int pen_downs = 0;                ///< so far
   int pen_down = -1;                ///< number of the one that goes on; -1: none
   int undecided = -1;               ///< of the one that is over, about which nothing is decided yet; -1: none
   bool is_doubted = false;          ///< that was left to the next one
@@ -98,7 +99,13 @@ class LessonMachine {
 
   /// Whether what the pen does is to be seen: otherwise the renderer is to be told that the device is silent.
   bool sees_pen() const noexcept { return !state_.is_paused && scene_->options.mode != LessonMode::watch; }
-  /// Whether it can go over to another scene now.
+  /// After a pause: the pen is seen again, which must be off the paper.
+  bool is_resume_asked() const noexcept { return is_resume_asked_; }
+  void resume() noexcept {
+    state_.is_paused = is_resume_asked_ = false;
+    has_changed_ = true;
+  }
+  /// Whether it can go over to another scene now, with a pen that is off the paper.
   bool can_enter(const LessonScene& next) const noexcept;
   void enter(LessonScene& next) noexcept;
   void take(LessonCommandKind command) noexcept;
@@ -125,6 +132,7 @@ class LessonMachine {
     bool is_ignored = false;
     double begin = 0.0;       ///< [s]
     double length = 0.0;      ///< of its path [m]
+    double covered = 0.0;     ///< HapticTick::covered, where it left the stroke [1]
     WritingHint hint = WritingHint::none;  ///< why it was not guided
     Point finish = Point::Zero();          ///< where it finished a stroke
     Point place = Point::Zero();           ///< where the pen is, or was lifted
@@ -138,6 +146,7 @@ class LessonMachine {
   void refuse(const PenDown& pen_down) noexcept;
   RefusalReason why_refused(const PenDown& pen_down) const noexcept;
   void forget_attempt() noexcept;
+  void drop_undecided() noexcept;
   void skip() noexcept;
   void undo() noexcept;
   void show() noexcept;
@@ -161,7 +170,7 @@ class LessonMachine {
   LessonState state_;
   int ink_ = -1;
   bool has_changed_ = true;
-  int pen_downs_ = 0;         ///< so far
+  bool is_resume_asked_ = false;
   PenDown current_;           ///< that goes on, if state_.pen_down says so
   PenDown undecided_;         ///< if state_.undecided says so
   double last_lift_ = -std::numeric_limits<double>::infinity();  ///< [s]

@@ -24,7 +24,7 @@ void validate(const LessonOptions& options) {
   if (!std::isnan(options.strength)) require_within("strength", options.strength, "", 0.0, most_strength);
   require_within("misses_until_shown", options.misses_until_shown, "", 0.0, most_misses);
   require_within("hint_time", options.hint_time, "s", 0.0, longest_hint_time);
-  require_within("max_absence", options.max_absence, "s", 0.0, longest_absence);
+  require_within("max_absence", options.max_absence, "s", 1e-3, longest_absence);
 }
 
 }  // namespace calligraphy

@@ -24,6 +24,15 @@ bool is_on_whole(StrokeRemarkKind kind) {
   return kind == Kind::character || kind == Kind::lookalike || kind == Kind::unreadable || kind == Kind::several;
 }
 
+/// Whether a remark on one stroke holds for another in the same words, but for its number.
+bool can_be_one(StrokeRemarkKind kind) {
+  using Kind = StrokeRemarkKind;
+  return kind == Kind::wavy || kind == Kind::bent || kind == Kind::straight || kind == Kind::hook;
+}
+
+/// Not of a stroke that was skipped, that is still to come, or whose ink was lost.
+bool has_ink(const LessonStroke& stroke) { return stroke.fate == StrokeFate::accepted && stroke.pen_down >= 0; }
+
 class LessonScorer {
  public:
   LessonScorer(const LessonWriting& writing, int character) : writing_(writing), character_(character) {
@@ -50,8 +59,6 @@ class LessonScorer {
   }
 
  private:
-  bool is_skipped(int stroke) const { return strokes_[static_cast<std::size_t>(stroke)].fate == StrokeFate::skipped; }
-
   void add_skipped() {
     LessonRemark remark;
     remark.kind = LessonRemarkKind::skipped;
@@ -67,18 +74,17 @@ class LessonScorer {
 
   void add_written() {
     std::vector<StrokeRemark> all = result_.score.match.remarks;
-    std::erase_if(all, [this](const StrokeRemark& remark) {
-      if (result_.skipped > 0 && is_on_whole(remark.kind)) return true;
+    const bool is_whole = std::all_of(strokes_.begin(), strokes_.end(), has_ink);
+    std::erase_if(all, [&](const StrokeRemark& remark) {
+      if (!is_whole && is_on_whole(remark.kind)) return true;
       if (remark.kind != StrokeRemarkKind::missing) return false;
-      for (int i = 0; i < remark.stroke_count; ++i) {
-        if (!is_skipped(remark.stroke + i)) return false;
-      }
-      return true;
+      const auto first = strokes_.begin() + remark.stroke;
+      return std::none_of(first, first + remark.stroke_count, has_ink);  // the lesson knows why
     });
     std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.evidence > b.evidence; });
     for (const StrokeRemark& remark : all) {
       const auto is_alike = [&](const LessonRemark& other) {
-        return other.kind == LessonRemarkKind::written && other.remark.kind == remark.kind;
+        return can_be_one(remark.kind) && other.kind == LessonRemarkKind::written && other.remark.kind == remark.kind;
       };
       const auto other = std::find_if(result_.remarks.begin(), result_.remarks.end(), is_alike);
       if (other == result_.remarks.end()) {

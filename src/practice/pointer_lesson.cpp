@@ -73,8 +73,9 @@ void PointerLesson::advance(double time) {
       if (samples_.empty() && !lesson_.has_commands()) return;
       time_ = std::max(time_, (samples_.empty() ? time : samples_.front().time) - period);
     }
-    time_ = std::max(time_, time - longest_advance);
-    if (time_ + period > time) return;
+    const double next = samples_.empty() ? time : std::min(time, samples_.front().time);
+    time_ = std::max(time_, next - longest_advance);
+    if (time_ + period + clock_step > time) return;
     time_ += period;
     while (!samples_.empty() && samples_.front().time <= time_ + clock_step) {
       const PointerSample sample = samples_.front();
@@ -91,7 +92,8 @@ bool PointerLesson::is_busy() const noexcept {
 
 /// No time need be spent before the next sample.
 bool PointerLesson::is_at_rest() const noexcept {
-  if (is_down_ || is_on_paper() || lesson_.is_waiting()) return false;
+  if (lesson_.is_waiting()) return false;
+  if (lesson_.sees_pen() && (is_down_ || is_on_paper())) return false;
   return !(time_ < last_sample_ + longest_rest);
 }
 

@@ -27,9 +27,8 @@ struct Written {
   explicit Written(const char* text) : page(page_of(text)) {
     const calligraphy_capabilities device = profile("ideal");
     auto held = sized<calligraphy_lesson_options>();
+    held.has_strength = 1;
     held.strength = 0.5;
-    held.misses_until_shown = 2;
-    held.hint_time = 0.25;
     REQUIRE(calligraphy_lesson_create_for_pointer(page.get(), &device, nullptr, &held, &lesson) == CALLIGRAPHY_OK);
     lesson_handle.reset(lesson);
   }

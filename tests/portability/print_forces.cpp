@@ -63,7 +63,7 @@ class PointerScript {
   PointerScript() {
     calligraphy_capabilities profile = {sizeof profile};
     check(calligraphy_device_profile("ideal", &profile));
-    calligraphy_lesson_options held = {sizeof held, CALLIGRAPHY_LESSON_GUIDED, 2, 0, 0.6, 0.25};
+    calligraphy_lesson_options held = {sizeof held, CALLIGRAPHY_LESSON_GUIDED, 0, 1, 0.6, 0.0};
     check(calligraphy_lesson_create_for_pointer(page, &profile, nullptr, &held, &lesson_));
   }
   ~PointerScript() { check(calligraphy_free(lesson_)); }

@@ -28,7 +28,7 @@ function intendedPath(library, constants, page) {
 function lessonNumbers(library, constants, page) {
   const profile = library.struct("capabilities"), sample = library.struct("pointer_sample");
   library.device_profile("ideal", profile);
-  const held = library.struct("lesson_options", { misses_until_shown: 2, strength: 0.6, hint_time: 0.25 });
+  const held = library.struct("lesson_options", { has_strength: 1, strength: 0.6 });
   const lesson = library.lesson_create_for_pointer(page, profile, null, held);
   let now = 1;
   const move = (kind, id, x, y, isDown, isCancelled) => {

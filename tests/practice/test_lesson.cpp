@@ -156,6 +156,122 @@ TEST_CASE("a bounce, and a palm at any moment, is no miss", "[lesson]") {
   CHECK(pupil.events() == "begun 2, accepted 2");
 }
 
+TEST_CASE("a pen-down that is ignored or paused is no writing, even if it is then written to its end", "[lesson]") {
+  using Kind = LessonCommandKind;
+  for (const std::vector<Kind>& commands : {std::vector{Kind::ignore}, std::vector{Kind::pause, Kind::resume}}) {
+    Lesson lesson = lesson_on("三");
+    Pupil pupil(lesson);
+    const std::vector<Point> path = pupil.path(0);
+    pupil.go(path.front(), 0.005);
+    for (const Point& point : path) {
+      pupil.go(point, -0.001);
+      if (&point != &path[path.size() / 2]) continue;
+      for (const Kind kind : commands) lesson.send({kind, pupil.ticks + (kind == Kind::resume ? 5 : 0)});
+      pupil.wait(0.02);
+    }
+    pupil.go(path.back(), 0.005);
+    pupil.wait(0.3);
+    CHECK(pupil.events() == "restarted 1, begun 1, ignored 1");
+    CHECK(lesson.look().due == 0);
+  }
+}
+
+TEST_CASE("a stroke that is followed and lifted early is told so, a dot too", "[lesson]") {
+  LessonOptions options = options_for();
+  options.renderer.tolerances = StrokeTolerances::strict();
+  for (const auto& [text, stroke, share] : {std::tuple("三", 2, 0.85), {"三", 2, 0.7}, {"永", 0, 0.5}}) {
+    Lesson lesson = lesson_on(text, options);
+    Pupil pupil(lesson);
+    for (int before = 0; before < stroke; ++before) lesson.send({LessonCommandKind::skip});
+    std::vector<Point> path = pupil.path(static_cast<std::size_t>(stroke));
+    path.resize(static_cast<std::size_t>(share * static_cast<double>(path.size())));
+    pupil.write(path);
+    CHECK(lesson.look().reason == RefusalReason::lifted_early);
+  }
+}
+
+TEST_CASE("no force is dropped at once by a change, and none sets in at once after a pause", "[lesson]") {
+  LessonOptions options = options_for();
+  options.strength = 0.6;
+  Lesson lesson = lesson_on("三", options);
+  Pupil pupil(lesson);
+  double last = 0.0, largest_step = 0.0;
+  pupil.on_tick = [&] {
+    const double force = lesson.force().head<2>().norm();
+    largest_step = std::max(largest_step, std::abs(force - last));
+    last = force;
+  };
+  std::vector<Point> path = pupil.path(0);
+  path.resize(path.size() / 2);
+  for (Point& point : path) point.y() += 0.003;  // pulled aside
+  pupil.go(path.front(), 0.005);
+  for (const Point& point : path) pupil.go(point, -0.001);
+  const double pull = last;
+  CHECK(pull > 0.5);
+  pupil.go(path.back(), 0.005);
+  lesson.again();
+  pupil.wait(0.5);
+  CHECK(largest_step < 0.2 * pull);
+  pupil.events();
+
+  lesson.send({LessonCommandKind::pause});
+  pupil.wait(0.1);
+  pupil.go(path.back(), -0.006);  // leans on paper that is not felt
+  lesson.send({LessonCommandKind::resume});
+  pupil.wait(0.2);
+  CHECK(lesson.force() == Eigen::Vector3d(0, 0, 0));
+  CHECK(lesson.look().is_paused);
+  pupil.go(path.back(), 0.002);
+  pupil.wait(0.02);
+  CHECK_FALSE(lesson.look().is_paused);
+}
+
+TEST_CASE("commands keep their ticks, whatever waits beside them", "[lesson]") {
+  Lesson lesson = lesson_on("三");
+  Pupil pupil(lesson);
+  lesson.send({LessonCommandKind::skip, 400});
+  lesson.send({LessonCommandKind::pause});
+  pupil.wait(0.02);
+  CHECK(lesson.look().is_paused);
+  lesson.send({LessonCommandKind::resume});
+  lesson.again(200);
+  LessonOptions changed = options_for();
+  changed.strength = 0.5;
+  lesson.change(changed);
+  pupil.wait(0.1);
+  CHECK(pupil.events() == "restarted 1");
+  pupil.wait(0.1);
+  CHECK(pupil.events() == "restarted 1");
+  pupil.wait(0.3);
+  CHECK(pupil.events() == "skipped 1");
+}
+
+TEST_CASE("undo takes back one stroke, also one that is in doubt", "[lesson]") {
+  Lesson lesson = lesson_on("三");
+  Pupil pupil(lesson);
+  pupil.write(pupil.path(0));
+  std::vector<Point> early = pupil.path(1);
+  early.resize(early.size() * 7 / 10);
+  pupil.write(early);
+  CHECK(lesson.look().ink.back().is_doubted);
+  lesson.send({LessonCommandKind::undo});
+  pupil.wait(0.01);
+  CHECK(lesson.look().due == 1);
+  CHECK(lesson.look().ink.back().fate == StrokeFate::ignored);
+}
+
+TEST_CASE("ink that was lost is no reproach to the pupil", "[lesson]") {
+  LessonOptions options = options_for();
+  options.max_absence = 0.1;
+  Lesson lesson = lesson_on("三", options);
+  Pupil pupil(lesson);
+  for (std::size_t stroke = 0; stroke < 3; ++stroke) pupil.write(pupil.path(stroke));
+  CHECK(lesson.look().lost_ticks > 100);
+  const LessonScore score = score_lesson(lesson.writing()).front();
+  CHECK(score.right_at_once == 3);
+  CHECK(score.remarks.empty());
+}
+
 TEST_CASE("another strength, mode or page begins once the pen is off the paper", "[lesson]") {
   Lesson lesson = lesson_on("三");
   Pupil pupil(lesson);

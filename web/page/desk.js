@@ -63,7 +63,7 @@ export class LessonHandle {
     this.stylus = library.struct("stylus");
     this.profile = library.struct("capabilities");
     this.renderer = library.struct("renderer_options");
-    this.held = library.struct("lesson_options", { misses_until_shown: 2, hint_time: 0.25 });
+    this.held = library.struct("lesson_options", { has_strength: 1 });
     library.device_profile("ideal", this.profile);
     this.pages.push(layOut(library, set, character));
     this.#set(held);

@@ -737,8 +737,8 @@ CALLIGRAPHY_API calligraphy_status calligraphy_servo_read_state(const calligraph
 
 // Lessons: what a teacher does (docs/lesson.md).
 
-/// Follows a pupil through the strokes of a page: counts misses, gives hints, shows strokes, and keeps what was written.
-/// calligraphy_lesson_update() may be called by another thread than all the rest, which changes no decision.
+/// Follows a pupil through the strokes of a page: counts misses, gives hints, shows strokes, and keeps what was
+/// written. calligraphy_lesson_update() may be called by another thread than all the rest, which changes no decision.
 typedef struct calligraphy_lesson calligraphy_lesson;
 
 /// What a lesson shows, and whether it guides the pen.
@@ -754,16 +754,14 @@ typedef enum calligraphy_lesson_mode {
 typedef struct calligraphy_lesson_options {
   uint32_t size;               ///< sizeof(calligraphy_lesson_options)
   int32_t mode;                ///< a calligraphy_lesson_mode
-  int32_t misses_until_shown;  ///< a stroke that was missed so often is shown and written once; 0: never
-  int32_t own_guidance;        ///< 1: guide as the options of the renderer say, whatever `strength`
-  /// Share of the way to the stroke over which a hand is pulled, from 0 to 0.95 [1].
-  double strength;
-  double hint_time;            ///< time for which a hint must hold before it is given [s]
+  int32_t misses_until_shown;  ///< a stroke that was missed so often is shown and written; 0: 2; below 0: never
+  int32_t has_strength;        ///< 0: the pen is guided as the options of the renderer say; 1: by `strength`
+  double strength;             ///< share of the way to the stroke over which a hand is pulled, from 0 to 0.95 [1]
+  double hint_time;            ///< time for which a hint must hold before it is given; 0: 0.25 s [s]
 } calligraphy_lesson_options;
 
-/// A lesson on a page, with a device that calligraphy_lesson_update() gets the samples of. Null `mapping`: upright, scale
-/// 1; null `options`: those of CALLIGRAPHY_PRESET_DEVICE; null `held`: guided as those say, shown after 2 misses, hints
-/// after 0.25 s.
+/// A lesson on a page, with a device that calligraphy_lesson_update() gets the samples of. Null `mapping`: upright,
+/// scale 1; null `options`: those of CALLIGRAPHY_PRESET_DEVICE; null `held`: all zero.
 CALLIGRAPHY_API calligraphy_status calligraphy_lesson_create(const calligraphy_page* page,
                                                              const calligraphy_mapping* mapping,
                                                              const calligraphy_capabilities* capabilities,
@@ -819,7 +817,7 @@ typedef enum calligraphy_lesson_command {
   CALLIGRAPHY_LESSON_UNDO = 1,    ///< make the last stroke due again
   CALLIGRAPHY_LESSON_SHOW = 2,    ///< show the stroke that is due, and write it once
   CALLIGRAPHY_LESSON_PAUSE = 3,   ///< no force, and what the pen does is not seen
-  CALLIGRAPHY_LESSON_RESUME = 4,  ///< go on after a pause
+  CALLIGRAPHY_LESSON_RESUME = 4,  ///< go on after a pause, once the pen is off the paper
   CALLIGRAPHY_LESSON_IGNORE = 5   ///< what the pen-down that is going on does is no writing
 } calligraphy_lesson_command;
 
@@ -925,9 +923,9 @@ typedef struct calligraphy_lesson_ink {
 CALLIGRAPHY_API calligraphy_status calligraphy_lesson_read_ink(const calligraphy_lesson* lesson, int32_t index,
                                                                calligraphy_lesson_ink* ink);
 
-/// Points of ink from an index on: of each 6 numbers, x and y of the pen tip, x and y of the pupil's own hand [m, page],
-/// the time [s] and the pressure of the pen [1], NaN where they are not known. `capacity`: of the array, in points;
-/// `count`: how many were written.
+/// Points of ink from an index on: of each 6 numbers, x and y of the pen tip, x and y of the pupil's own hand [m,
+/// page], the time [s] and the pressure of the pen [1], NaN where they are not known. `capacity`: of the array, in
+/// points; `count`: how many were written.
 CALLIGRAPHY_API calligraphy_status calligraphy_lesson_ink_points(const calligraphy_lesson* lesson, int32_t begin,
                                                                  double* ink, size_t capacity, size_t* count);
 
@@ -970,7 +968,8 @@ CALLIGRAPHY_API calligraphy_status calligraphy_lesson_take_event(calligraphy_les
 CALLIGRAPHY_API calligraphy_status calligraphy_lesson_hint_text(calligraphy_lesson* lesson, const char* language,
                                                                 const char** text);
 
-/// What is to be judged, as numbers that another thread, or another process, can be given. Null `numbers`: only `count`.
+/// What is to be judged, as numbers that another thread, or another process, can be given. Null `numbers`: only
+/// `count`.
 CALLIGRAPHY_API calligraphy_status calligraphy_lesson_writing(const calligraphy_lesson* lesson, double* numbers,
                                                               size_t capacity, size_t* count);
 

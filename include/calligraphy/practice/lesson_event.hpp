@@ -70,7 +70,7 @@ enum class LessonCommandKind : std::uint8_t {
   undo,    ///< make the last stroke due again, whether it was accepted or skipped; once the pen writes none
   show,    ///< show the stroke that is due, and write it once
   pause,   ///< no force, and what the pen does is not seen
-  resume,  ///< go on after a pause
+  resume,  ///< go on after a pause, once the pen is off the paper
   ignore   ///< what the pen-down that is going on has done, and will do, is no writing
 };
 

@@ -44,7 +44,9 @@ struct LessonOptions {
   int misses_until_shown = 2;  ///< a stroke that was missed so often is shown and written once; 0: never
   double hint_time = 0.25;     ///< time for which a hint must hold before it is given [s]
   bool records_all = false;    ///< record every tick and what came in, for replayed(), not only those on the paper
-  double max_absence = 10.0;   ///< time for which look() need not be called, until ticks are lost, at most 60 [s]
+  /// Time on the paper, or with `records_all` any time, for which look() need not be called before the ticks that follow
+  /// are lost to the recording, at most 60 [s].
+  double max_absence = 10.0;
 };
 
 /// @throws ValueError naming the option that is out of its domain, but for those of the renderer

@@ -20,8 +20,8 @@ namespace calligraphy {
 struct LessonWriting {
   PracticePage page;                  ///< that was written
   std::vector<LessonStroke> strokes;  ///< of the page, and what became of them
-  /// The pen-downs that wrote the accepted strokes, each from the touch to the lift. Between two of them pass at least 52
-  /// ms, so that a quick one is not taken for a bounce; no ink that was refused is among them.
+  /// The pen-downs that wrote the accepted strokes, each from the touch to the lift. Between two of them pass at least
+  /// 52 ms, so that a quick one is not taken for a bounce; no ink that was refused is among them.
   Recording recording;
   std::vector<Point> hands;           ///< where the pupil's own hand was in each of its samples; empty: not known [m]
   std::vector<LessonEvent> attempts;  ///< the pen-downs that were refused (LessonEventKind::refused)

@@ -34,20 +34,20 @@ struct PointerSample {
 /// when advance() is called.
 ///
 /// A touch that comes within 1.5 s of a pen is the palm that holds it, and one that is down when a pen comes was; a
-/// pointer that is put down within 0.15 em of where it has just been lifted writes on; one that was not seen coming, such
-/// as a finger, finds the pen there.
+/// pointer that is put down within 0.15 em of where it has just been lifted writes on; one that was not seen coming,
+/// such as a finger, finds the pen there.
 class PointerLesson {
  public:
-  /// Of the options, `mapping` is that of the pages, and grip_stiffness and guidance.fade_in are those of this hand; the
-  /// options of the renderer should be for `device`.
+  /// Of the options, `mapping` is that of the pages, and grip_stiffness and guidance.fade_in are those of this hand;
+  /// the options of the renderer should be for `device`.
   /// @throws ValueError as Lesson
   PointerLesson(std::vector<PracticePage> pages, const Capabilities& device,
                 const LessonOptions& options = {});
 
   /// Keeps a sample until its time has come. Those whose place or time is not finite are left out.
   void move(const PointerSample& sample);
-  /// Goes on to a time: at most 60 s, and past a rest of more than 1 s in which no pointer writes and nothing is in doubt
-  /// at once.
+  /// Goes on to a time, sample by sample. A rest of more than 1 s in which no pointer writes and nothing is in doubt
+  /// passes at once, and of a pen that rests on the paper for longer, the last 60 s count.
   void advance(double time);
   /// Whether time matters: the pen writes, something is in doubt or is shown, or samples wait. Otherwise advance() need
   /// not be called.
@@ -82,7 +82,7 @@ class PointerLesson {
   bool is_down_ = false;      ///< a pointer
   PointerSample pointer_;     ///< its last sample, or that of the one that hovers
   bool is_ignored_ = false;   ///< it was no writing
-  std::deque<std::pair<double, Point>> places_;  ///< of the pointer, by time [s]: those that the hand has not passed yet
+  std::deque<std::pair<double, Point>> places_;  ///< of the pointer, by time [s], that the hand has not passed yet
   double hand_time_;                             ///< by the clock of the samples [s]
 };
 
