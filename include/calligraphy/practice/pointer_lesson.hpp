@@ -55,7 +55,9 @@ class PointerLesson {
   /// As Lesson::change(), of this hand.
   void change(const LessonOptions& options);
 
+  /// The lesson that it holds: for commands, views and events.
   Lesson& lesson() noexcept { return lesson_; }
+  /// As above.
   const Lesson& lesson() const noexcept { return lesson_; }
   /// What the last tick returned; all zero before the first one.
   const HapticTick& last() const noexcept { return tick_; }
