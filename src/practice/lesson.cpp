@@ -44,6 +44,7 @@ struct Lesson::Loop {
   LessonMachine machine;
   SampleQueue<LessonScene*> scenes;
   LessonScene* wanted = nullptr;  ///< that is entered next; null: none
+  DeviceState silent;  ///< the last sample of a pen that is not to be seen
   bool records_all;
   bool can_be_made_again = true;  ///< the ticks of the page so far, by a renderer that knows nothing of the lesson
   std::array<LessonCommand, max_commands> waiting;  ///< for their ticks, in the order in which they were sent
@@ -126,11 +127,10 @@ const HapticTick& Lesson::update(const DeviceState& sample, const LessonHand* ha
   loop.obey(sample);
   LessonScene& scene = machine.scene();
   const DeviceState* seen = &sample;
-  DeviceState silent;
   if (!machine.sees_pen()) [[unlikely]] {
-    silent = sample;
-    silent.status = DeviceStatus::stale;
-    seen = &silent;
+    loop.silent = sample;
+    loop.silent.status = DeviceStatus::stale;
+    seen = &loop.silent;
   }
   const HapticTick& tick = scene.is_plain ? scene.renderer.update(*seen) : scene.session.update(*seen);
   if (hand) machine.set_hand(hand->place);

@@ -1,33 +1,15 @@
-// Draws a lesson, and passes on what is done: what is decided, the library decides.
+// A lesson on the page: passes on what is done, and tells what has happened. What is decided, the library decides.
 import { constants } from "../calligraphy.js";
-import { Animations } from "./animations.js";
 import { LessonHandle } from "./desk.js";
 import { Ink } from "./ink.js";
-import { colours } from "./paper.js";
+import { modes } from "./modes.js";
+import { Picture } from "./picture.js";
 import { Trace } from "./trace.js";
-
-/**
- * @typedef {"guided" | "vision" | "next" | "memory" | "watch"} ModeName
- * @typedef {object} Settings
- * @property {ModeName} mode
- * @property {number} strength of the guide, from 0 to 0.8
- * @property {number} tolerance such as constants.TOLERANCE_NORMAL
- * @property {"guided" | "own" | "both"} ink which ink is shown
- */
-
-export const modes = {
-  guided: { name: "Guided", kind: constants.LESSON_GUIDED, isGuided: true },
-  vision: { name: "Vision only", kind: constants.LESSON_VISION, isGuided: false },
-  next: { name: "Next stroke", kind: constants.LESSON_NEXT_STROKE, isGuided: true },
-  memory: { name: "From memory", kind: constants.LESSON_MEMORY, isGuided: false },
-  watch: { name: "Watch", kind: constants.LESSON_WATCH, isGuided: false },
-};
 
 const rest = 1000;       // time without anything to draw after which no more pictures are drawn [ms]
 const longestWork = 12;  // on a trace that is played, for one picture [ms]
 
 export class Lesson {
-  animations = new Animations();
   trace = new Trace();  // what the pointer did
   /** @type {import("./pointer.js").PointerSample[]} */
   played = [];          // samples of a trace that is written again, the last one first
@@ -35,17 +17,14 @@ export class Lesson {
   time = 0;             // of the lesson [ms]
   /** @type {Ink[]} */
   ink = [];             // by pen-down
-  shown = "";           // what the layers of sheet and ink show
-  hasPointer = false;   // has been seen
   isAwake = false;
   lastActivity = 0;     // [ms]
-  marks = () => {};     // draws what a remark points at
 
   /**
    * @param {import("../calligraphy.js").Library} library
    * @param {number} set
    * @param {string} character
-   * @param {Settings} settings
+   * @param {import("./modes.js").Settings} settings
    * @param {import("./paper.js").Paper} paper
    * @param {import("./pointer.js").Pointer} pointer
    * @param {{hint(text: string, x: number, y: number): void, changed(lesson: Lesson, isNew?: boolean): void,
@@ -57,6 +36,7 @@ export class Lesson {
     this.paper = paper;
     this.pointer = pointer;
     this.display = display;
+    this.picture = new Picture(this, paper);
     this.desk = new LessonHandle(library, set, character, { ...settings, mode: this.mode.kind });
     this.character = character;
     this.wake();
@@ -76,7 +56,7 @@ export class Lesson {
     this.wake();
   }
 
-  /** Takes other settings. @param {Settings} settings */
+  /** Takes other settings. @param {import("./modes.js").Settings} settings */
   change(settings) {
     if (settings.mode !== this.settings.mode) this.trace = new Trace();
     this.settings = settings;
@@ -129,7 +109,7 @@ export class Lesson {
 
   /** Shows what a remark is about until the next call. @param {() => void} marks draws on the layer of marks */
   point(marks) {
-    this.marks = marks;
+    this.picture.marks = marks;
     this.wake();
   }
 
@@ -142,7 +122,7 @@ export class Lesson {
   }
 
   redraw() {
-    this.shown = "";
+    this.picture.shown = "";
     this.wake();
   }
 
@@ -150,8 +130,8 @@ export class Lesson {
   #picture(now) {
     const isBusy = this.played.length > 0 ? this.#play(now) : this.#goOn(now);
     this.#look();
-    this.#draw(now);
-    const isMoving = this.played.length > 0 || this.animations.playing.length > 0;
+    this.picture.draw(now);
+    const isMoving = this.played.length > 0 || this.picture.animations.playing.length > 0;
     this.isAwake = isBusy || isMoving || now - this.lastActivity < rest;
     if (this.isAwake) requestAnimationFrame((next) => this.#picture(next));
   }
@@ -183,7 +163,7 @@ export class Lesson {
 
   /** @param {import("./pointer.js").PointerSample} sample */
   #move(sample) {
-    this.hasPointer = true;
+    this.picture.hasPointer = true;
     this.desk.move({ ...sample, time: sample.time + this.added });
   }
 
@@ -193,7 +173,7 @@ export class Lesson {
     const events = desk.look();
     for (const event of events) {
       if (event.kind === constants.LESSON_RESTARTED) this.#restart();
-      if (event.kind === constants.LESSON_REFUSED) this.#refuse(event);
+      if (event.kind === constants.LESSON_REFUSED) this.picture.refuse(event.pen_down);
       const isTold = event.kind === constants.LESSON_REFUSED || event.kind === constants.LESSON_HINTED;
       if (isTold) display.hint(desk.hint(), event.place[0], event.place[1]);
     }
@@ -210,70 +190,7 @@ export class Lesson {
   /** A page has been begun. */
   #restart() {
     this.ink = [];
-    this.marks = () => {};
-    this.animations.clear();
-    this.redraw();
-  }
-
-  /** Ink that was refused goes away, and the stroke that is due flashes. @param {{pen_down: number}} event */
-  #refuse({ pen_down }) {
-    const { paper, due } = this, context = paper.contexts.marks;
-    this.animations.add(500, (share) => {
-      context.globalAlpha = 0.6 * (1 - share);
-      for (const ink of this.ink) if (ink.penDown === pen_down) ink.guided.draw(context, colours.wrong);
-      context.globalAlpha = 1;
-    });
-    if (this.view.demonstrated >= 0 || this.view.is_on_paper || !due) return;
-    this.animations.add(900, (share) => {
-      context.globalAlpha = Math.sin(2 * Math.PI * share) ** 2;
-      paper.fillStroke("marks", due, colours.flash);
-      context.globalAlpha = 1;
-    });
-  }
-
-  /** @param {number} now */
-  #draw(now) {
-    const { paper, view, desk: { strokes }, settings: { mode } } = this;
-    const due = mode === "watch" ? -1 : view.due;
-    const shows = JSON.stringify([view.due, view.demonstrated, strokes.map(({ fate, isShown }) => [fate, isShown]),
-                                  this.ink.map(({ fate, isDoubted }) => [fate, isDoubted])]);
-    if (shows !== this.shown) {
-      this.shown = shows;
-      paper.drawGrid();
-      strokes.forEach((stroke, i) => {
-        if (stroke.isShown) paper.fillStroke("sheet", stroke, i === due ? colours.due : colours.template);
-      });
-      paper.clear("ink");
-      paper.clear("pen");
-      strokes.forEach((stroke, i) => {
-        const isDemonstrated = mode === "watch" && (view.is_finished || i < view.demonstrated);
-        if (stroke.fate === constants.FATE_SKIPPED) paper.fillStroke("ink", stroke, colours.skipped);
-        if (isDemonstrated) paper.fillStroke("ink", stroke, colours.ink);
-      });
-      for (const ink of this.ink) this.#drawInk(ink, true);
-    } else if (this.ink.length > 0) {
-      this.#drawInk(this.ink[this.ink.length - 1], false);
-    }
-    paper.clear("marks");
-    if (view.shows_start && this.due) paper.markStart(this.due);
-    this.animations.play(now);
-    if (view.demonstrated >= 0) {
-      const colour = mode === "watch" ? colours.ink : colours.flash;
-      paper.fillBeginning("marks", strokes[view.demonstrated], colour, view.demonstrated_share);
-    }
-    this.marks();
-    if (this.hasPointer && !view.is_finished) paper.markPen(view.pen_tip[0], view.pen_tip[1], view.is_on_paper !== 0);
-  }
-
-  /** The ink that is to be seen of a pen-down: all of it, or what is new. @param {Ink} ink @param {boolean} isWhole */
-  #drawInk({ fate, isDoubted, guided, own }, isWhole) {
-    const isOpen = fate === constants.FATE_OPEN;
-    if (!isOpen && fate !== constants.FATE_ACCEPTED) return;
-    const context = this.paper.contexts[isOpen && !isDoubted ? "pen" : "ink"];
-    const which = this.isGuided ? this.settings.ink : "own", colour = isDoubted ? colours.skipped : colours.ink;
-    if (which !== "own") guided.draw(context, colour, 1, isWhole);
-    if (which === "own") own.draw(context, colour, 1, isWhole);
-    if (which === "both") own.draw(context, colours.own, 0.25, isWhole);
+    this.picture.clear();
+    this.wake();
   }
 }
-

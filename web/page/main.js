@@ -1,7 +1,8 @@
 // The page: what is chosen, and how it goes.
 import { CalligraphyError, constants, load } from "../calligraphy.js";
 import { openCharacters, readCharacter, setWith } from "./characters.js";
-import { Lesson, modes } from "./lesson.js";
+import { Lesson } from "./lesson.js";
+import { modes } from "./modes.js";
 import { Paper } from "./paper.js";
 import { Pointer } from "./pointer.js";
 import { showResult } from "./result.js";
@@ -50,7 +51,7 @@ async function main() {
   const hint = find("hint"), paperElement = find("paper"), result = find("result");
   const paper = new Paper(paperElement, () => lesson.redraw());
   const pointer = new Pointer(paperElement, paper, () => lesson.wake());
-  let settings = /** @type {import("./lesson.js").Settings} */ (
+  let settings = /** @type {import("./modes.js").Settings} */ (
     { mode: "guided", strength: 0.6, tolerance: constants.TOLERANCE_LENIENT, ink: "guided" });
   let note = "";  // that is shown until something is done
   let task = 0;  // number of the last one that the worker was given
@@ -131,7 +132,7 @@ async function main() {
     if (!inOrder.some(begin)) throw new Error("none of the characters can be written");
   }
 
-  /** @param {Partial<import("./lesson.js").Settings>} changed */
+  /** @param {Partial<import("./modes.js").Settings>} changed */
   function change(changed) {
     settings = { ...settings, ...changed };
     lesson.change(settings);
@@ -196,7 +197,7 @@ async function main() {
   }
 
   offer("modes", Object.fromEntries(Object.entries(modes).map(([mode, { name }]) => [mode, name])), "guided",
-        (mode) => change({ mode: /** @type {import("./lesson.js").ModeName} */ (mode) }));
+        (mode) => change({ mode: /** @type {import("./modes.js").ModeName} */ (mode) }));
   offer("ink", { guided: "Guided ink", own: "My own ink", both: "Both, mine in blue" }, "guided",
         (ink) => change({ ink: /** @type {"guided" | "own" | "both"} */ (ink) }));
   for (const [name, value] of Object.entries(tolerances)) input("tolerance").append(new Option(name, String(value)));
