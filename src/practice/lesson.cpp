@@ -36,6 +36,7 @@ struct Lesson::Loop {
   void take(LessonCommandKind command) noexcept;
   void record(const HapticTick& tick, const DeviceState& input, const LessonHand* hand) noexcept;
 
+  std::atomic<bool> is_called = false;  ///< since the loop looked, something was put into the first two queues
   SampleQueue<LessonCommand> commands;
   SampleQueue<LessonEvent> events;
   SampleQueue<LessonSample> samples;
@@ -49,10 +50,11 @@ struct Lesson::Loop {
   bool can_be_made_again = true;  ///< the ticks of the page so far, by a renderer that knows nothing of the lesson
   std::array<LessonCommand, max_commands> waiting;  ///< for their ticks, in the order in which they were sent
   std::size_t waiting_count = 0;
+  bool has_work = false;  ///< for obey()
 };
 
 /// Carries out the commands that are due, and goes over to another scene.
-void Lesson::Loop::obey(const DeviceState& sample) noexcept {
+[[gnu::noinline]] void Lesson::Loop::obey(const DeviceState& sample) noexcept {
   const std::uint64_t tick = machine.state().tick;
   while ((!wanted || wanted->tick <= tick) && scenes.pop(wanted)) {  // of several that are due, the last is entered
   }
@@ -64,7 +66,6 @@ void Lesson::Loop::obey(const DeviceState& sample) noexcept {
   }
   if (machine.is_resume_asked() && is_off_paper(sample)) [[unlikely]] machine.resume();
   while (waiting_count < waiting.size() && commands.pop(waiting[waiting_count])) ++waiting_count;
-  if (waiting_count == 0) [[likely]] return;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < waiting_count; ++i) {
     if (waiting[i].tick <= tick) {
@@ -74,6 +75,7 @@ void Lesson::Loop::obey(const DeviceState& sample) noexcept {
     }
   }
   waiting_count = kept;
+  has_work = waiting_count > 0 || wanted || !scenes.is_empty() || machine.is_resume_asked();
 }
 
 /// Whether no force acts on the pen, and none would at once if a renderer saw it for the first time.
@@ -124,7 +126,11 @@ Lesson::~Lesson() = default;
 const HapticTick& Lesson::update(const DeviceState& sample, const LessonHand* hand) noexcept {
   Loop& loop = *loop_;
   LessonMachine& machine = loop.machine;
-  loop.obey(sample);
+  if (loop.is_called.load(std::memory_order_relaxed)) [[unlikely]] {
+    loop.is_called.exchange(false, std::memory_order_acquire);
+    loop.has_work = true;
+  }
+  if (loop.has_work) [[unlikely]] loop.obey(sample);
   LessonScene& scene = machine.scene();
   const DeviceState* seen = &sample;
   if (!machine.sees_pen()) [[unlikely]] {
@@ -150,7 +156,7 @@ void Lesson::ignore() noexcept { loop_->take(LessonCommandKind::ignore); }
 bool Lesson::sees_pen() const noexcept { return loop_->machine.sees_pen(); }
 bool Lesson::is_waiting() const noexcept { return loop_->machine.is_waiting(); }
 bool Lesson::has_commands() const noexcept {
-  return loop_->waiting_count > 0 || loop_->wanted || !loop_->commands.is_empty() || !loop_->scenes.is_empty();
+  return loop_->has_work || loop_->is_called.load(std::memory_order_relaxed);
 }
 std::exception_ptr Lesson::law_error() const {
   const LessonScene& scene = loop_->machine.scene();
@@ -158,10 +164,15 @@ std::exception_ptr Lesson::law_error() const {
   return scene.is_plain ? guidance_error(scene.renderer) : scene.session.error();
 }
 
-bool Lesson::send(const LessonCommand& command) noexcept { return loop_->commands.push(command); }
+bool Lesson::send(const LessonCommand& command) noexcept {
+  const bool is_taken = loop_->commands.push(command);
+  loop_->is_called.store(true, std::memory_order_release);
+  return is_taken;
+}
 
 void Lesson::post(LessonScene& scene) {
   if (!loop_->scenes.push(&scene)) throw Error("lesson: 64 changes wait already");
+  loop_->is_called.store(true, std::memory_order_release);
 }
 
 void Lesson::again(std::uint64_t tick) {
