@@ -127,7 +127,7 @@ TEST_CASE("a lesson is written, told and scored through C") {
     CHECK(calligraphy_score_lesson_remark_text(score, 0, i, nullptr, &words) == CALLIGRAPHY_OK);
     said += std::string(words) + " ";
   }
-  CHECK(said == "Stroke 3 was skipped. Stroke 1: one try backwards. ");
+  CHECK(said == "Stroke 3 was skipped. Stroke 1: 1 try backwards. ");
   CHECK(strokes[0] == 0);
   CHECK(calligraphy_free(score) == CALLIGRAPHY_OK);
 }

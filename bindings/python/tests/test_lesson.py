@@ -68,7 +68,7 @@ def test_a_refusal_has_its_reason_and_a_skipped_stroke_is_told_as_skipped():
     assert hand.told() == ["skipped 1", "skipped 2", "begun 3", "accepted 3", "finished 3"]
     (score,) = cal.score_lesson(hand.held.lesson.writing())
     words = [cal.lesson_remark_text(each, score.score.match.character) for each in score.remarks]
-    assert score.skipped == 2 and words == ["Strokes 1, 2 were skipped.", "Stroke 1: one try backwards."]
+    assert score.skipped == 2 and words == ["Strokes 1, 2 were skipped.", "Stroke 1: 1 try backwards."]
 
 
 def test_one_thread_looks_on_while_a_law_runs_in_another_and_neither_half_is_for_two():
