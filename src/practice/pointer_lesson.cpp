@@ -71,7 +71,7 @@ void PointerLesson::advance(double time) {
   while (true) {
     if (is_at_rest()) {
       if (samples_.empty() && !lesson_.has_commands()) return;
-      time_ = std::max(time_, (samples_.empty() ? time : samples_.front().time) - period);
+      time_ = std::max(time_, (samples_.empty() ? time - 2.0 * clock_step : samples_.front().time) - period);
     }
     const double next = samples_.empty() ? time : std::min(time, samples_.front().time);
     time_ = std::max(time_, next - longest_advance);

@@ -108,6 +108,17 @@ TEST_CASE("nothing is lost if a picture is drawn long after the writing", "[less
   CHECK(hand.events() == "restarted 1, begun 1, accepted 1, begun 2, accepted 2, begun 3, accepted 3, finished 3");
 }
 
+TEST_CASE("a command is carried out at rest, too, at the next picture", "[lesson]") {
+  Hand hand(60.0);
+  hand.write(0);
+  hand.wait(5.0);
+  hand.lesson->lesson().send({LessonCommandKind::skip});
+  CHECK(hand.lesson->is_busy());
+  hand.wait(0.016);
+  CHECK(hand.lesson->lesson().look().due == 2);
+  CHECK_FALSE(hand.lesson->is_busy());
+}
+
 TEST_CASE("a palm and a touch that the system takes are no misses, and a bounce writes on", "[lesson]") {
   Hand hand(60.0);
   hand.kind = PointerKind::touch;

@@ -136,7 +136,7 @@ async function main() {
   function change(changed) {
     settings = { ...settings, ...changed };
     lesson.change(settings);
-    showProgress(lesson);
+    showProgress(lesson, true);
   }
 
   /** What a file says of how it was written. */
