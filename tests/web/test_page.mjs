@@ -518,6 +518,7 @@ testPage("each mode shows as much of the template as it says", {}, async (tab) =
   await tab.write(yong[0]);
   assert.notEqual(await tab.fingerprint("sheet"), first, "the next stroke is shown instead");
   assert.deepEqual(await shown("next"), [true, false]);
+  await tab.pass(300);  // until the guide has let go of the pen
   assert.deepEqual(await shown("memory"), [false, false]);
   await tab.writeAll(yong);
   await isWritten(tab);

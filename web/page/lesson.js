@@ -47,12 +47,14 @@ export class Lesson {
     this.desk.begin(set, character);
     this.character = character;
     this.trace = new Trace();
+    this.display.changed(this, true);
     this.wake();
   }
 
   again() {
     this.desk.again();
     this.trace = new Trace();
+    this.display.changed(this, true);
     this.wake();
   }
 
