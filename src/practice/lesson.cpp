@@ -8,7 +8,6 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/latest_value.hpp>
 #include <calligraphy/devices/sample_queue.hpp>
-#include <calligraphy/practice/score.hpp>
 
 #include "lesson_desk.hpp"
 #include "lesson_machine.hpp"

@@ -88,7 +88,6 @@ double demonstration_time(const StrokeOnPage& stroke) noexcept {
 LessonScene::LessonScene(const PracticePage& on, const Capabilities& held, const LessonOptions& given)
     : page(on),
       options(given),
-      device(held),
       wanted(with_strength(given)),
       strokes(strokes_on(on)),
       progress(std::make_shared<LessonProgress>(strokes.size())),

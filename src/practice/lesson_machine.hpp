@@ -53,7 +53,6 @@ struct LessonScene {
   int page_index = 0;
   PracticePage page;
   LessonOptions options;
-  Capabilities device;
   RendererOptions wanted;  ///< of the renderer, as given to it
   std::vector<StrokeOnPage> strokes;
   std::shared_ptr<LessonProgress> progress;
